@@ -1,9 +1,10 @@
-"""Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure that cannot be drawn, for example because its
-records are missing or stale, is named with the cause, which NAME.cause.txt keeps for the report, and the exit status is 1. A figure whose
-study has no folder in DIR, or whose run the default form of its study does not have, was not requested: it is drawn from the kept record
-that judges DIR, or else named and left out, and the status stays 0. Status 0 therefore means that every figure of the studies in DIR was
-drawn. If DIR holds no study at all, the status is 1. If only some of the planned runs have records, the figure is drawn and its caption
-names the others. If a file cannot be written, it is named and the exit status is 2.
+"""Deletes the figures of DIR and draws those of figures.toml anew from its records. A figure that cannot be drawn, for
+example because its records are missing or stale, is named with the cause, which NAME.cause.txt keeps for the report,
+and the exit status is 1. A figure whose study has no folder in DIR, or whose run the default form of its study does not
+have, was not requested: it is drawn from the kept record that judges DIR, or else named and left out, and the status
+stays 0. Status 0 therefore means that every figure of the studies in DIR was drawn. If DIR holds no study at all, the
+status is 1. If only some of the planned runs have records, the figure is drawn and its caption names the others. If a
+file cannot be written, it is named and the exit status is 2.
 
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce
     xvfb-run -a python3 paper_figures/make_all.py results/reproduce --only error_against_time --into elsewhere
@@ -42,7 +43,8 @@ def draw(entry, results, folder):
                 write(path, origin)
         captions.write(entry, results, folder)
     except Exception as error:  # one figure must not keep the others from being drawn
-        cause = error if isinstance(error, records.RecordsMissing) else f"internal error, please report it: {type(error).__name__}: {error}"
+        cause = (error if isinstance(error, records.RecordsMissing) else "internal error, please report it: "
+                                                                         f"{type(error).__name__}: {error}")
         delete(entry.name, folder)
         line = " ".join(str(cause).split())
         with whole_file.beside(folder / f"{entry.name}.cause.txt") as path:
@@ -96,7 +98,8 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", metavar="DIR", type=pathlib.Path, help="the records of ./reproduce")
     parser.add_argument("--only", metavar="NAME", help="draw only this figure")
-    parser.add_argument("--into", metavar="FOLDER", type=pathlib.Path, help="folder of the figures (default: DIR/figures)")
+    parser.add_argument("--into", metavar="FOLDER", type=pathlib.Path, help="folder of the figures (default: "
+                                                                            "DIR/figures)")
     chosen = parser.parse_args()
     try:
         sys.exit(main(chosen.results, chosen.only, chosen.into))

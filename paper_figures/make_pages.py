@@ -1,4 +1,5 @@
-"""Writes the pages of studies for readers, DIR/STUDY/STUDY.md, from their tables. Exit status 2 without records, or for damaged ones.
+"""Writes the pages of studies for readers, DIR/STUDY/STUDY.md, from their tables. Exit status 2 without records, or for
+damaged ones.
 
     python3 paper_figures/make_pages.py results/reproduce
 """

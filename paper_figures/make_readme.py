@@ -1,13 +1,17 @@
-"""Writes the parts of README.md and of other pages that come from records, each between two markers of its own. Nobody edits them by hand.
+"""Writes the parts of README.md and of other pages that come from records, each between two markers of its own. Nobody
+edits them by hand.
 
-    build/release/bin/pbskin reproduce --judge -o experiments/records/full      # writes claims.json there; git ignores it
-    python3 paper_figures/make_readme.py experiments/records/full               # all parts except reliability
-    python3 paper_figures/make_readme.py results/check/reliability reliability  # the counts that the tests of ./check --long wrote
+    # writes claims.json there; git ignores it
+    build/release/bin/pbskin reproduce --judge -o experiments/records/full
+    # all parts except reliability
+    python3 paper_figures/make_readme.py experiments/records/full
+    # the counts that the tests of ./check --long wrote
+    python3 paper_figures/make_readme.py results/check/reliability reliability
 
-claims: one line per claim in the README; findings: its findings; methods: which method in which time, with its figure; features: the table
-of the study that switches features off; kept: the generated parts of the studies' READMEs and of the claims' pages; glossary: the terms of
-experiments/GLOSSARY.md with their picture; reliability: the table of tests/README.md. Exit status 2 if the records or a page are not as
-expected.
+claims: one line per claim in the README; findings: its findings; methods: which method in which time, with its figure;
+features: the table of the study that switches features off; kept: the generated parts of the studies' READMEs and of
+the claims' pages; glossary: the terms of experiments/GLOSSARY.md with their picture; reliability: the table of
+tests/README.md. Exit status 2 if the records or a page are not as expected.
 """
 import pathlib
 import sys
@@ -25,7 +29,8 @@ parts = {"claims": lambda results: {part.own_readme: tables.claims_lines(results
          "findings": lambda results: {part.own_readme: findings.lines_of(results)},
          "methods": lambda results: {part.own_readme: findings.drawn_methods_lines(results)},
          "features": lambda results: {tables.features_page: tables.features_lines(results)}, "kept": pages.pages,
-         "glossary": glossary_pages, "reliability": lambda folder: {tables.reliability_page: tables.reliability_lines(folder)}}
+         "glossary": glossary_pages,
+         "reliability": lambda folder: {tables.reliability_page: tables.reliability_lines(folder)}}
 
 
 def main(arguments):

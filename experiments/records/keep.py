@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the values by which claims are judged, those that
-they show for comparison, the studies' own tables and the provenance, below 8 MB, in experiments/records/full. Studies that DIR lacks keep
-their earlier records, with the revision of these. `pbskin reproduce --judge -o experiments/records/full` judges them all again.
+"""Keeps what the verdicts rest on: from the records of `pbskin reproduce --full -o DIR` the values by which claims are
+judged, those that they show for comparison, the studies' own tables and the provenance, below 8 MB, in
+experiments/records/full. Studies that DIR lacks keep their earlier records, with the revision of these. `pbskin
+reproduce --judge -o experiments/records/full` judges them all again.
 
     python3 experiments/records/keep.py results/full [FOLDER]
 """
@@ -19,17 +20,19 @@ import tomllib
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "paper_figures"))
 from records import kept  # noqa: E402
 
-JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "threads", "frame", "time_s", "angle_deg", "outcome",
-          "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "masked_share_pct", "error_joint_pct"]
+JUDGED = ["scene", "deformer", "variant", "order", "precision", "iterations", "threads", "frame", "time_s", "angle_deg",
+          "outcome", "volume_change_pct", "volume_abs_change_pct", "inverted_tets", "masked_share_pct",
+          "error_joint_pct"]
 PROVENANCE = ["version", "git_revision", "git_dirty", "compiler", "flags", "build_type", "cpu_model", "logical_cpus"]
 DRAWN = ("bones.csv", "bones_rest.csv", "binding.csv", "embedding.csv")  # beside frames, which are not kept
 MOST_BYTES = 8_000_000
 COMPRESSED_FROM = 1_000_000  # bytes of a table of all runs, which is then NAME.csv.gz
-# Tables of a run from which those of the study follow: kept whatever their length. WHOLE: of a study, with all digits, since every decision
-# can be recomputed from them.
+# Tables of a run from which those of the study follow: kept whatever their length. WHOLE: of a study, with all digits,
+# since every decision can be recomputed from them.
 RAW = ("rates.csv", "played.csv")
 WHOLE = ("errors.csv", "pairs.csv")
-# Tables that no verdict and no page reads, and rows.csv, whose rows verification.csv has. Three figures need them from a run.
+# Tables that no verdict and no page reads, and rows.csv, whose rows verification.csv has. Three figures need them from
+# a run.
 UNREAD = ("profiles.csv", "regions.csv", "smoothness.csv", "rows.csv", "towards.csv", "points.csv", "training.csv")
 PICTURED = ("nh_p2",)  # the reference in the README's picture of the limb, which no claim selects
 PAGES = ("bench.txt",)  # a study's texts that are no pages
@@ -41,14 +44,16 @@ number = re.compile(r"[-+]?(\d+\.\d*|\.?\d+)(e[-+]?\d+)?", re.ASCII | re.IGNOREC
 
 
 def rounded(text):
-    """Six digits are enough for every bound. Whole numbers and texts stay. 01_01 is the name of a clip, which float() reads as 101."""
+    """Six digits are enough for every bound. Whole numbers and texts stay. 01_01 is the name of a clip, which float()
+    reads as 101."""
     return f"{float(text):.6g}" if number.fullmatch(text) and not text.lstrip("-").isdigit() else text
 
 
 def shown_deformers():
-    """Each deformer that claims of the study `volume`, the only one judged from metrics.csv, select -> its numbers of iterations; None for
-    any, as where one selection states none."""
-    claims = tomllib.loads((pathlib.Path(__file__).resolve().parents[1] / "verdicts" / "claims.toml").read_text(encoding="utf-8"))["claim"]
+    """Each deformer that claims of the study `volume`, the only one judged from metrics.csv, select -> its numbers of
+    iterations; None for any, as where one selection states none."""
+    claims = tomllib.loads((pathlib.Path(__file__).resolve().parents[1] / "verdicts"
+                            / "claims.toml").read_text(encoding="utf-8"))["claim"]
     selected = [of.get("of", {}) for claim in claims if claim["study"] == "volume"
                 for of in (claim, *claim.get("controls", []), *claim.get("compared", []))]
     deformers = {name: None for name in PICTURED}
@@ -90,7 +95,8 @@ def keep_run(source, target):
     record = json.loads((source / "run.json").read_text(encoding="utf-8"))
     provenance = {key: value for key, value in record.get("provenance", {}).items() if key in PROVENANCE}
     target.mkdir(parents=True)
-    (target / "run.json").write_text(json.dumps({"schema": record["schema"], "provenance": provenance}, indent=1) + "\n", encoding="utf-8")
+    (target / "run.json").write_text(json.dumps({"schema": record["schema"], "provenance": provenance},
+                                                indent=1) + "\n", encoding="utf-8")
     for table in sorted(source.glob("*.csv")):
         if table.name == "metrics.csv":
             keep_metrics(table, target / table.name)
@@ -120,13 +126,14 @@ def keep_study(source, target):
         if (source / run["name"] / "run.json").exists():
             too_long += keep_run(source / run["name"], target / run["name"])
     if too_long:
-        lines = [f"{file.parent if file.parent.name else ''},{file.name},{(source / file).stat().st_size}\n" for file in too_long]
+        lines = [f"{file.parent if file.parent.name else ''},{file.name},{(source / file).stat().st_size}\n"
+                 for file in too_long]
         (target / "not_kept.csv").write_text("run,file,bytes\n" + "".join(lines), encoding="utf-8")
 
 
 def joined(tables, column):
-    """The rows of several tables, (value, file), as one with a column in front. A table that lacks a column has empty cells in it, and one
-    without rows has a row without cells."""
+    """The rows of several tables, (value, file), as one with a column in front. A table that lacks a column has empty
+    cells in it, and one without rows has a row without cells."""
     columns, rows = [], []
     for value, file in tables:
         with file.open(newline="", encoding="utf-8") as stream:
@@ -155,7 +162,8 @@ def earlier_studies(kept_records, new, scratch):
 
 
 def concluded_later(kept_records, new):
-    """Studies whose conclusions follow from kept rows at a later revision than that which measured them, until they are measured anew."""
+    """Studies whose conclusions follow from kept rows at a later revision than that which measured them, until they are
+    measured anew."""
     file = kept_records / "provenance.json"
     concluded = json.loads(file.read_text(encoding="utf-8")).get("concluded_again", []) if file.is_file() else []
     return [of for of in concluded if of["study"] not in new]
@@ -187,7 +195,8 @@ def merge(results, target, concluded_again):
         else:
             (target / f"{name}.gz").write_bytes(gzip.compress(text, 9, mtime=0))
     measured = [json.loads(text) | {"runs": runs} for text, runs in origins.items()]
-    for name, content in (("plans.json", plans), ("provenance.json", {"origins": measured, "concluded_again": concluded_again})):
+    for name, content in (("plans.json", plans),
+                          ("provenance.json", {"origins": measured, "concluded_again": concluded_again})):
         (target / name).write_text(json.dumps(content, indent=1, sort_keys=True) + "\n", encoding="utf-8")
 
 
@@ -204,7 +213,8 @@ def keep(results, target):
         earlier_studies(target, new, pathlib.Path(scratch))
         for study in sorted(new):
             keep_study(results / study, pathlib.Path(scratch) / study)
-        shutil.copyfile(results / "claims.md", pathlib.Path(scratch) / "claims.md")  # claims.json is longer, and --judge writes it again
+        # claims.json is longer, and --judge writes it again.
+        shutil.copyfile(results / "claims.md", pathlib.Path(scratch) / "claims.md")
         merge(pathlib.Path(scratch), beside, concluded_later(target, new))
     size = sum(file.stat().st_size for file in beside.rglob("*") if file.is_file())
     if size > MOST_BYTES:
@@ -220,4 +230,5 @@ def keep(results, target):
 if __name__ == "__main__":
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    keep(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else pathlib.Path(__file__).resolve().parent / "full")
+    keep(pathlib.Path(sys.argv[1]),
+         pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else pathlib.Path(__file__).resolve().parent / "full")

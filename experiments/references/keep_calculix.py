@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""Solves the problems of experiments/studies/verification/calculix.cpp with CalculiX and keeps its displacements, with which the study
-`verification` compares the reference at every node. It needs `ccx` (Debian: calculix-ccx) and takes some minutes.
+"""Solves the problems of experiments/studies/verification/calculix.cpp with CalculiX and keeps its displacements, with
+which the study `verification` compares the reference at every node. It needs `ccx` (Debian: calculix-ccx) and takes
+some minutes.
 
     python3 experiments/references/keep_calculix.py
 
-Each problem is set up here from its definition: the tets of the cantilever, the tets that the limb's bones hold, the springs of the smooth
-attachment, the search for their points and the shape functions share no code with the program. The tets of the limb are the kept ones.
-calculix/NAME.f64 has three displacements [m] per node, in double: of the vertices and, with quadratic elements, of the middles of the
-edges, sorted by the vertices at their ends. calculix/answers.csv states for each problem the number of nodes, the version of CalculiX, the
-SHA-256 of its deck and the hash of the file.
+Each problem is set up here from its definition: the tets of the cantilever, the tets that the limb's bones hold, the
+springs of the smooth attachment, the search for their points and the shape functions share no code with the program.
+The tets of the limb are the kept ones. calculix/NAME.f64 has three displacements [m] per node, in double: of the
+vertices and, with quadratic elements, of the middles of the edges, sorted by the vertices at their ends.
+calculix/answers.csv states for each problem the number of nodes, the version of CalculiX, the SHA-256 of its deck and
+the hash of the file.
 """
 import csv
 import dataclasses
@@ -30,8 +32,10 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 KEPT = pathlib.Path(__file__).resolve().parent / "calculix"
 YOUNG_PA, POISSON = 1e5, 0.3
 EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))  # of the middle nodes of C3D10
-ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "CCX_NPROC_EQUATION_SOLVER", "NUMBER_OF_CPUS")}
-# Orders of the elements, vertices, how the bones hold the flesh, the motion of the forearm [deg], whether strains are large.
+ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "CCX_NPROC_EQUATION_SOLVER",
+                                     "NUMBER_OF_CPUS")}
+# Orders of the elements, vertices, how the bones hold the flesh, the motion of the forearm [deg], whether strains are
+# large.
 LIMBS = (
     ((1, 2), 1775, "held", "bent", 10, False),
     ((1, 2), 1775, "held", "bent", 90, False),
@@ -62,14 +66,16 @@ class Problem:
 # The meshes.
 
 def box(size, divisions):
-    """Cells that are split into six tets about one diagonal (Kuhn): a tet is a way from the lowest corner to the highest one."""
+    """Cells that are split into six tets about one diagonal (Kuhn): a tet is a way from the lowest corner to the
+    highest one."""
     nx, ny, nz = divisions
     grid = np.array(list(itertools.product(range(nz + 1), range(ny + 1), range(nx + 1))))[:, ::-1]
     strides = np.array([1, nx + 1, (nx + 1) * (ny + 1)])
     lowest = grid[(grid < divisions).all(axis=1)] @ strides
     tets = []
     for way in itertools.permutations(range(3)):
-        corners = np.cumsum([np.zeros_like(lowest), *(np.full_like(lowest, strides[axis]) for axis in way)], axis=0) + lowest
+        corners = np.cumsum([np.zeros_like(lowest), *(np.full_like(lowest, strides[axis]) for axis in way)],
+                            axis=0) + lowest
         is_odd = way in ((0, 2, 1), (1, 0, 2), (2, 1, 0))
         tets.append(corners[[0, 1, 3, 2] if is_odd else [0, 1, 2, 3]].T)
     return grid / divisions * size, np.concatenate(tets)
@@ -81,7 +87,8 @@ def limb(vertices):
     reader.SetFileName(str(file))
     reader.Update()
     grid = reader.GetOutput()
-    return vtk_to_numpy(grid.GetPoints().GetData()).astype(float), vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    return vtk_to_numpy(grid.GetPoints().GetData()).astype(float), vtk_to_numpy(
+        grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
 
 
 def with_middles(nodes, tets):
@@ -110,8 +117,8 @@ def turn(axis, degrees):
 
 
 def bones(nodes, tets, core_radius):
-    """Per bone of the limb, which lies along x and has its joint at 0: both ends of the cylinder by which it holds the flesh, the middle
-    two thirds of it, and its radius, core_radius times the mean distance of the skin there."""
+    """Per bone of the limb, which lies along x and has its joint at 0: both ends of the cylinder by which it holds the
+    flesh, the middle two thirds of it, and its radius, core_radius times the mean distance of the skin there."""
     faces = np.sort(tets[:, [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]].reshape(-1, 3), axis=1)
     faces, counts = np.unique(faces, axis=0, return_counts=True)
     skin = nodes[np.unique(faces[counts == 1])]
@@ -122,7 +129,8 @@ def bones(nodes, tets, core_radius):
 
 
 def held_by_tets(nodes, tets, motions):
-    """The nodes of whole tets in the cylinders, and their displacements: a middle of an edge is halfway between its ends."""
+    """The nodes of whole tets in the cylinders, and their displacements: a middle of an edge is halfway between its
+    ends."""
     corners, held, held_at = tets[:, :4], [], []
     for (start, end, radius), motion in zip(bones(nodes, corners, 0.6), motions):
         inside = (nodes[:, 0] >= start) & (nodes[:, 0] <= end) & (np.hypot(nodes[:, 1], nodes[:, 2]) <= radius)
@@ -132,8 +140,9 @@ def held_by_tets(nodes, tets, motions):
 
 
 def smooth_springs(nodes, tets, motions):
-    """40 discs along each bone, each with its centre and 24 points on each of 8 rings. The density of the springs is 10 E / R^2 on the axis
-    and decreases by (1 - s^2)^2 across the bone and by the step 3 t^2 - 2 t^3 over one radius at its ends."""
+    """40 discs along each bone, each with its centre and 24 points on each of 8 rings. The density of the springs is 10
+    E / R^2 on the axis and decreases by (1 - s^2)^2 across the bone and by the step 3 t^2 - 2 t^3 over one radius at
+    its ends."""
     n, angle = np.repeat(np.arange(8), 24), np.tile(2.0 * np.pi * np.arange(24) / 24.0, 8)
     s = np.concatenate([[0.0], np.sqrt((1.0 + 24.0 * (n + 0.5)) / 193.0)])
     disc = s[:, None] * np.concatenate([[[1.0, 0.0]], np.column_stack([np.cos(angle), np.sin(angle)])])
@@ -153,7 +162,8 @@ def posed_limb(order, vertices, motion, is_smooth, is_large):
     nodes, tets = (vertices, corners) if order == 1 else with_middles(vertices, corners)
     motions = (np.eye(3), motion)
     if is_smooth:
-        return Problem(nodes, tets, springs=smooth_springs(vertices, corners, motions), is_large=is_large, residual=1e-12)
+        return Problem(nodes, tets, springs=smooth_springs(vertices, corners, motions), is_large=is_large,
+                       residual=1e-12)
     return Problem(nodes, tets, *held_by_tets(nodes, tets, motions), is_large=is_large)
 
 
@@ -186,9 +196,10 @@ def located(nodes, tets, points):
 
 
 def springs_to_ground(problem):
-    """With the shape functions N of a tet, its springs have the energy u^T Q u / 2 - f^T u except for a constant, Q = sum_s k_s N N^T and
-    f = sum_s k_s N (t_s - X_s). Each eigenvector v of Q is one spring, whose end moves by sqrt(lambda / k) v . u; k is the largest
-    eigenvalue of all tets. Returns k, the tet and the coefficients of each spring, and the dead load f, #N x 3."""
+    """With the shape functions N of a tet, its springs have the energy u^T Q u / 2 - f^T u except for a constant, Q =
+    sum_s k_s N N^T and f = sum_s k_s N (t_s - X_s). Each eigenvector v of Q is one spring, whose end moves by
+    sqrt(lambda / k) v . u; k is the largest eigenvalue of all tets. Returns k, the tet and the coefficients of each
+    spring, and the dead load f, #N x 3."""
     points, targets, stiffness = problem.springs
     width = problem.tets.shape[1]
     parts = [located(problem.nodes, problem.tets, part) for part in np.array_split(points, 40)]
@@ -224,7 +235,8 @@ def spring_cards(problem, k, tets, coefficients):
     yield from ("*NODE, NSET=ENDS", *(line(first + m, 0, 0, 0) for m in springs))
     for axis in (1, 2, 3):
         number_of_first = len(problem.tets) + (axis - 1) * len(tets) + 1
-        yield from (f"*ELEMENT, TYPE=SPRING1, ELSET=SPRINGS{axis}", *(line(number_of_first + m, first + m) for m in springs))
+        yield from (f"*ELEMENT, TYPE=SPRING1, ELSET=SPRINGS{axis}",
+                    *(line(number_of_first + m, first + m) for m in springs))
         yield from (f"*SPRING, ELSET=SPRINGS{axis}", str(axis), number(k))
     for m, axis in itertools.product(springs, (1, 2, 3)):
         terms = [line(first + m, axis, 1)]
@@ -261,8 +273,8 @@ def cards(problem):
 # CalculiX's files.
 
 def displacements(folder, nodes):
-    """CalculiX prints 7 digits. Its restart file holds all, in one of Fortran's records of raw memory, which stand between their lengths.
-    The record is recognised: it agrees with every printed number to the last digit."""
+    """CalculiX prints 7 digits. Its restart file holds all, in one of Fortran's records of raw memory, which stand
+    between their lengths. The record is recognised: it agrees with every printed number to the last digit."""
     printed = [text.split() for text in (folder / "deck.dat").read_text().splitlines()]
     printed = np.array([list(map(float, words)) for words in printed if len(words) == 4])
     if not np.array_equal(printed[:, 0], np.arange(nodes) + 1):
@@ -289,8 +301,10 @@ def run(problem):
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         (folder / "deck.inp").write_text(deck, encoding="ascii")
-        version = subprocess.run(["ccx", "-v"], cwd=folder, env=environment, capture_output=True, text=True, check=False).stdout
-        done = subprocess.run(["ccx", "-i", "deck"], cwd=folder, env=environment, capture_output=True, text=True, check=False)
+        version = subprocess.run(["ccx", "-v"], cwd=folder, env=environment, capture_output=True, text=True,
+                                 check=False).stdout
+        done = subprocess.run(["ccx", "-i", "deck"], cwd=folder, env=environment, capture_output=True, text=True,
+                              check=False)
         if done.returncode != 0 or "*ERROR" in done.stdout:
             sys.exit(f"keep_calculix: ccx ended with status {done.returncode}: {done.stdout[-400:]}")
         content = displacements(folder, len(problem.nodes)).astype("<f8").tobytes()

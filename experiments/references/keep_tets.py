@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Keeps the tets of the bodies that may be redistributed: those that runs of the studies left in the cache of meshes. The files are written
-anew with a better compression (LZMA in place of zlib), since they stay in the repository; what they hold is the same to the bit.
+"""Keeps the tets of the bodies that may be redistributed: those that runs of the studies left in the cache of meshes.
+The files are written anew with a better compression (LZMA in place of zlib), since they stay in the repository; what
+they hold is the same to the bit.
 
     PBSKIN_CACHE=cache PBSKIN_REFERENCES=/none pbskin reproduce --full -o results/full
     python3 experiments/references/keep_tets.py cache

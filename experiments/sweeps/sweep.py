@@ -1,12 +1,13 @@
 #!/usr/bin/python3 -B
-"""Parameter sweeps: many runs of one scene by Snakemake, on this machine or on a Slurm cluster, and one table of all of them.
+"""Parameter sweeps: many runs of one scene by Snakemake, on this machine or on a Slurm cluster, and one table of all of
+them.
 
     sweep.py check SWEEP.toml                         lists the runs
     sweep.py run SWEEP.toml -o DIR -j 2               DIR/sweep.csv, costs.csv, sweep.json, runs/NAME/
     sweep.py run SWEEP.toml -o DIR --slurm            the same as Slurm jobs, by the profile slurm next to this script
 
-`run` continues where it was stopped. Further arguments go to snakemake, whose exit status it returns (2: bad input). README.md describes
-the sweep file. An installation has this script as `pbskin-sweep`."""
+`run` continues where it was stopped. Further arguments go to snakemake, whose exit status it returns (2: bad input).
+README.md describes the sweep file. An installation has this script as `pbskin-sweep`."""
 import argparse
 import fcntl
 import hashlib
@@ -29,9 +30,9 @@ class SweepError(Exception):
 
 
 class Sweep:
-    """A sweep file. scene: as pbskin takes it. rows: deformers or frames. batch: runs per Slurm job. runs: name -> {key: value as TOML}, of
-    the keys that vary. The name is the hash of scene and keys, so that a sweep that grows keeps the runs that it has. files: that scene or
-    keys name."""
+    """A sweep file. scene: as pbskin takes it. rows: deformers or frames. batch: runs per Slurm job. runs: name ->
+    {key: value as TOML}, of the keys that vary. The name is the hash of scene and keys, so that a sweep that grows
+    keeps the runs that it has. files: that scene or keys name."""
 
     def __init__(self, file):
         self.file = pathlib.Path(file)
@@ -47,7 +48,8 @@ class Sweep:
             self.refuse("schema", document.get("schema"), "expected 1")
         self.scene = document.get("scene")
         if not isinstance(self.scene, str) or not self.scene:
-            self.refuse("scene", self.scene, "expected the name of a built-in scene (pbskin list scenes), or a scene file")
+            self.refuse("scene", self.scene, "expected the name of a built-in scene (pbskin list scenes), "
+                                             "or a scene file")
         if self.scene.endswith(".toml"):
             self.scene = str((self.file.parent / self.scene).resolve())
             if not os.path.isfile(self.scene):
@@ -63,10 +65,12 @@ class Sweep:
         if type(self.batch) is not int or self.batch < 1:
             self.refuse("output.batch", self.batch, "expected a whole number of at least 1")
         self.fixed = self.flat("set", document.get("set", {}))
-        self.runs = self.expanded(self.flat("grid", document.get("grid", {})), [self.flat("run", row) for row in document.get("run", [])])
+        self.runs = self.expanded(self.flat("grid", document.get("grid", {})),
+                                  [self.flat("run", row) for row in document.get("run", [])])
         keys = " ".join(value for entries in (self.fixed, *self.runs.values()) for value in entries.values())
         folder = pathlib.Path(self.scene).parent
-        self.files = sorted(named_files(json.dumps(self.scene) if self.scene.endswith(".toml") else "", folder) | named_files(keys, folder))
+        self.files = sorted(named_files(json.dumps(self.scene) if self.scene.endswith(".toml") else "", folder)
+                            | named_files(keys, folder))
 
     def refuse(self, field, value, rule):
         name = re.escape(field.split(".")[-1])
@@ -85,10 +89,12 @@ class Sweep:
                 return
             if not KEY.fullmatch(prefix):
                 self.refuse(f"{table}.{prefix}", value, "expected a key of the scene, such as pbs.iterations")
-            if table == "grid" and (not isinstance(value, list) or not value or any(value.count(one) > 1 for one in value)):
+            if table == "grid" and (not isinstance(value, list) or not value
+                                    or any(value.count(one) > 1 for one in value)):
                 self.refuse(f"grid.{prefix}", value, "expected a list of different values")
             if toml_of(value) is None:
-                self.refuse(f"{table}.{prefix}", value, "expected a finite number, a text, true, false, or a list of these")
+                self.refuse(f"{table}.{prefix}", value, "expected a finite number, a text, true, false, "
+                                                        "or a list of these")
             entries[prefix] = value if table == "grid" else toml_of(value)
 
         walk("", content)
@@ -98,7 +104,8 @@ class Sweep:
         taken = [*self.fixed, *grid, *(rows[0] if rows else [])]
         for key in taken:
             if taken.count(key) > 1:
-                self.refuse(key, grid.get(key, self.fixed.get(key)), "expected in one of [set], [grid] and [[run]] only")
+                self.refuse(key, grid.get(key, self.fixed.get(key)),
+                            "expected in one of [set], [grid] and [[run]] only")
         if not grid and not rows:
             self.refuse("grid", "", "expected a [grid] or [[run]] tables: nothing varies")
         runs = {}
@@ -107,7 +114,8 @@ class Sweep:
                 self.refuse("run", ", ".join(row), "expected the keys of the first [[run]]: " + ", ".join(rows[0]))
             for values in itertools.product(*grid.values()):
                 keys = row | {key: toml_of(value) for key, value in zip(grid, values)}
-                name = hashlib.sha256(json.dumps([self.scene, sorted((self.fixed | keys).items())]).encode()).hexdigest()[:16]
+                name = hashlib.sha256(json.dumps([self.scene,
+                                                  sorted((self.fixed | keys).items())]).encode()).hexdigest()[:16]
                 if name in runs:
                     self.refuse("run", row, "expected every run once")
                 runs[name] = keys
@@ -118,13 +126,15 @@ class Sweep:
 
 
 def named_files(text, folder):
-    """The files that quoted texts name, what these name in turn (a scene's mesh, a glTF's buffers), and companions (.node and .ele)."""
+    """The files that quoted texts name, what these name in turn (a scene's mesh, a glTF's buffers), and companions
+    (.node and .ele)."""
     found = set()
     for name in re.findall(r'"([^"\\\n]{1,250})"', text):
         path = folder / name
         if not path.suffix or not path.is_file():
             continue
-        found |= {str(beside) for beside in path.parent.glob(f"{path.stem}.*") if beside.suffix in (path.suffix, ".node", ".ele")}
+        found |= {str(beside) for beside in path.parent.glob(f"{path.stem}.*")
+                  if beside.suffix in (path.suffix, ".node", ".ele")}
         if path.suffix in (".toml", ".gltf"):
             found |= named_files(path.read_text(encoding="utf-8", errors="replace"), path.parent)
     return found
@@ -144,8 +154,10 @@ read = Sweep
 
 
 def program():
-    """The pbskin next to an installation PREFIX/share/pbskin/sweeps, the one built in a checkout, or the one on the PATH."""
-    place = HERE.parents[2] / "bin/pbskin" if HERE.parent.name == "pbskin" else HERE.parents[1] / "build/release/bin/pbskin"
+    """The pbskin next to an installation PREFIX/share/pbskin/sweeps, the one built in a checkout, or the one on the
+    PATH."""
+    place = (HERE.parents[2] / "bin/pbskin" if HERE.parent.name == "pbskin"
+             else HERE.parents[1] / "build/release/bin/pbskin")
     return str(place) if place.is_file() else shutil.which("pbskin") or str(place)
 
 
@@ -163,9 +175,10 @@ def run(plan, options, more):
     os.set_inheritable(lock, True)  # unlike snakemake's own lock, this one ends with snakemake, however it ends
     slurm = ["--profile", str(HERE / "slurm"), "--group-components", f"runs={plan.batch}"]
     where = slurm if options.slurm else ["--cores", str(options.jobs), "--quiet", "rules", "--scheduler", "greedy"]
-    os.execvp("snakemake", ["snakemake", "-s", str(HERE / "Snakefile"), "-d", str(options.output), "--nolock", "--rerun-incomplete",
-                            "--rerun-triggers", "mtime", "params", "input", *where, *more, "--config",
-                            f"sweep={os.path.abspath(options.sweep)}", f"pbskin={os.path.abspath(options.pbskin)}"])
+    os.execvp("snakemake", ["snakemake", "-s", str(HERE / "Snakefile"), "-d", str(options.output), "--nolock",
+                            "--rerun-incomplete", "--rerun-triggers", "mtime", "params", "input", *where, *more,
+                            "--config", f"sweep={os.path.abspath(options.sweep)}",
+                            f"pbskin={os.path.abspath(options.pbskin)}"])
 
 
 def main():

@@ -1,4 +1,5 @@
-"""Actors for a rendering.Stage, made from recorded frames: smooth-shaded skin, tets cut open, and bones; and the points of a frame.
+"""Actors for a rendering.Stage, made from recorded frames: smooth-shaded skin, tets cut open, and bones; and the points
+of a frame.
 
     picture = stage.shot([bodies.skin(frames.skin("pbs", 12)), *bodies.bones(frames.bones(12))], camera)
 """
@@ -58,11 +59,13 @@ def bone_under(frames, point, tet_file):
 
 
 def _actor(data, color, ambient=0.25, **settings):
-    return rendering.actor_of(made(vtkPolyDataMapper, InputData=data, ScalarVisibility=False), ambient, Color=color, **settings)
+    return rendering.actor_of(made(vtkPolyDataMapper, InputData=data, ScalarVisibility=False), ambient, Color=color,
+                              **settings)
 
 
 def skin(file, color=rendering.skin_color, ambient=0.25, opacity=1.0):
-    return _actor(surface(file if hasattr(file, "GetPoints") else rendering.read(file)), color, ambient, Opacity=opacity)
+    return _actor(surface(file if hasattr(file, "GetPoints") else rendering.read(file)), color, ambient,
+                  Opacity=opacity)
 
 
 def skin_by(file, values, scale, colors, steps=256):
@@ -96,11 +99,13 @@ def section(file, place, normal):
 
 
 def bones(posed, radius_m=0.008, towards=(0.0, 0.0, 0.0), color=bone_color):
-    """Each bone as a rod between its end points, with balls at its joints. Bones moved towards a parallel camera are hidden by nothing."""
+    """Each bone as a rod between its end points, with balls at its joints. Bones moved towards a parallel camera are
+    hidden by nothing."""
     actors = []
     for ends in ((tuple(bone.head + numpy.array(towards)), tuple(bone.tail + numpy.array(towards))) for bone in posed):
         line = made(vtkLineSource, Point1=ends[0], Point2=ends[1])
         rod = made(vtkTubeFilter, InputConnection=line.GetOutputPort(), Radius=radius_m, NumberOfSides=16)
-        balls = [made(vtkSphereSource, Center=end, Radius=1.8 * radius_m, ThetaResolution=20, PhiResolution=20) for end in ends]
+        balls = [made(vtkSphereSource, Center=end, Radius=1.8 * radius_m, ThetaResolution=20, PhiResolution=20)
+                 for end in ends]
         actors += [_actor(output_of(shape), color) for shape in (rod, *balls)]
     return actors

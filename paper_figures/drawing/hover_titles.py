@@ -1,6 +1,6 @@
-"""The numbers behind a figure's points, in its SVG: an invisible circle over each point has the title "label: x, y", which browsers show
-under the pointer. The circles of a panel are in a group of class "values" that names its axes (data-x, data-y). A drawing of a body, true
-to scale, has no such circles, since its coordinates are not data."""
+"""The numbers behind a figure's points, in its SVG: an invisible circle over each point has the title "label: x, y",
+which browsers show under the pointer. The circles of a panel are in a group of class "values" that names its axes
+(data-x, data-y). A drawing of a body, true to scale, has no such circles, since its coordinates are not data."""
 from html import escape
 
 import numpy
@@ -16,7 +16,8 @@ def add(figure, file):
     text = file.read_text().replace(' id="guide"', "").replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif")
     page, end = text.rsplit("</svg>", 1)
     height = figure.get_size_inches()[1] * points_an_inch
-    groups = [group_of(axes, figure.dpi, height) for axes in figure.axes if axes.get_visible() and axes.get_aspect() == "auto"]
+    groups = [group_of(axes, figure.dpi, height) for axes in figure.axes if axes.get_visible()
+              and axes.get_aspect() == "auto"]
     file.write_text(page + "".join(groups) + "</svg>" + end)
 
 
@@ -30,8 +31,8 @@ def group_of(axes, dpi, height):
 
 
 def points_of(axes):
-    """(label, x, y of the places, x, y as shown) for each line, cloud of markers and row of bars, except guides and lines across the
-    panel."""
+    """(label, x, y of the places, x, y as shown) for each line, cloud of markers and row of bars, except guides and
+    lines across the panel."""
     for line in axes.lines:
         if line.get_transform() == axes.transData and line.get_gid() != "guide":
             x, y = line.get_data(orig=False)
@@ -46,7 +47,8 @@ def points_of(axes):
 
 
 def end_and_length_of(bar, orientation):
-    """x and y of the end of a bar, and the value that it shows: in a stack, each bar begins where the previous one ends."""
+    """x and y of the end of a bar, and the value that it shows: in a stack, each bar begins where the previous one
+    ends."""
     x, y, width, height = bar.get_x(), bar.get_y(), bar.get_width(), bar.get_height()
     if orientation == "vertical":
         return x + width / 2, y + height, x + width / 2, height
@@ -63,11 +65,13 @@ def circles_of(axes, label, x, y, said_x, said_y, dpi, height):
         if numpy.isfinite(place).all() and box.contains(*place):
             across, up = place * points_an_inch / dpi
             text = prefix + ", ".join(name_of(value, known) for known, value in zip(names, values))
-            yield f'<circle cx="{across:.1f}" cy="{height - up:.1f}" r="{radius}"><title>{escape(text)}</title></circle>'
+            yield (f'<circle cx="{across:.1f}" cy="{height - up:.1f}" '
+                   f'r="{radius}"><title>{escape(text)}</title></circle>')
 
 
 def names_of(axis):
-    """The names at the places of an axis whose ticks are not numbers of their own: methods, regions, the settings of a map."""
+    """The names at the places of an axis whose ticks are not numbers of their own: methods, regions, the settings of a
+    map."""
     places = axis.get_majorticklocs()  # panels that share an axis show its names once, but all of them have the names
     texts = dict(zip(places, (text.replace("\n", " ") for text in axis.get_major_formatter().format_ticks(places))))
     return {place: text for place, text in texts.items() if text and "$" not in text and number(text) != place}

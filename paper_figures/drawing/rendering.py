@@ -1,4 +1,5 @@
-"""Still pictures of recorded frames, rendered off screen by VTK. VTK needs a display; xvfb-run provides one on machines without a screen.
+"""Still pictures of recorded frames, rendered off screen by VTK. VTK needs a display; xvfb-run provides one on machines
+without a screen.
 
     view = rendering.Camera(rendering.middle_of(file), half_height_m)
     picture = rendering.Stage(width_px, height_px).shot([bodies.skin(file), *bodies.bones(posed)], view)
@@ -12,20 +13,23 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
-from vtkmodules.vtkRenderingCore import vtkActor, vtkDataSetMapper, vtkLight, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import (vtkActor, vtkDataSetMapper, vtkLight, vtkRenderer, vtkRenderWindow,
+                                         vtkWindowToImageFilter)
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  the rendering back end
 
 import records
 
 ratio_scale = colors.Normalize(0.5, 1.5)  # scale of the volume ratio, the same for all pictures
-# From dark to light, so that compressed and expanded tets differ in grey prints too; the colour of inverted tets is darker than all others.
+# From dark to light, so that compressed and expanded tets differ in grey prints too; the colour of inverted tets is
+# darker than all others.
 ratio_colors = colors.LinearSegmentedColormap.from_list("volume ratio", ["#2C6DB5", "#B4B4B4", "#FFE54A"])
 inverted_color, skin_color = (0.5, 0.0, 0.1), (0.87, 0.72, 0.62)
 paper = (1.0, 1.0, 1.0)  # background of stills
 view_direction = numpy.array([0.45, 0.12, 1.0])  # from the body to the camera; y is up
 
 
-kept = []  # the first window stays open to the end: xvfb restarts when its last client leaves, and rejects clients at that moment
+# The first window stays open to the end: xvfb restarts when its last client leaves, and rejects clients at that moment.
+kept = []
 
 
 @dataclass(frozen=True)
@@ -41,7 +45,8 @@ class Stage:
     """A window with its lights and camera."""
 
     def __init__(self, width_px, height_px, background=paper):
-        records.need(os.environ.get("DISPLAY"), "no display to render on; on Debian: apt-get install xvfb xauth, and run under xvfb-run -a")
+        records.need(os.environ.get("DISPLAY"), "no display to render on; on Debian: apt-get install xvfb xauth, "
+                                                "and run under xvfb-run -a")
         self.renderer = made(vtkRenderer, Background=background)
         self.renderer.GetActiveCamera().ParallelProjectionOn()
         for direction, strength in (((-0.6, 0.8, 1.0), 0.9), ((1.0, 0.3, 0.6), 0.4)):
@@ -96,7 +101,8 @@ def middle_of(file):
 
 def read(file):
     records.need(file.is_file(), f"{file}: does not exist")
-    data = output_of(made(vtkXMLPolyDataReader if file.suffix == ".vtp" else vtkXMLUnstructuredGridReader, FileName=str(file)))
+    data = output_of(made(vtkXMLPolyDataReader if file.suffix == ".vtp" else vtkXMLUnstructuredGridReader,
+                          FileName=str(file)))
     if data.GetNumberOfPoints() == 0:
         raise records.RecordsMissing(f"{file}: no points")
     return data
@@ -111,7 +117,8 @@ def tets(file, steps=600):
     """The tets with ratio_colors over ratio_scale; inverted tets (below zero) have a colour of their own."""
     most = ratio_scale.vmax
     ratios = [-most + (step + 0.5) * 2 * most / steps for step in range(steps)]
-    table = table_of(-most, most, [(*inverted_color, 1.0) if ratio <= 0 else ratio_colors(ratio_scale(ratio)) for ratio in ratios])
+    table = table_of(-most, most, [(*inverted_color, 1.0) if ratio <= 0 else ratio_colors(ratio_scale(ratio))
+                                   for ratio in ratios])
     surface = made(vtkDataSetSurfaceFilter, InputData=read(file))
     mapper = made(vtkDataSetMapper, InputConnection=surface.GetOutputPort(), LookupTable=table)
     mapper.SetScalarModeToUseCellFieldData()

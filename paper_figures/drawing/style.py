@@ -1,5 +1,5 @@
-"""The common style of all figures: the size that a phone shows whole, colours, axes, keys and files. looks.toml has the colour, marker and
-line of each deformer, and the colours of all else.
+"""The common style of all figures: the size that a phone shows whole, colours, axes, keys and files. looks.toml has the
+colour, marker and line of each deformer, and the colours of all else.
 
     figure, axes = style.panels(1, 2)
     style.plot(axes[0][0], rows, "angle_deg", "volume_change_pct", **style.as_of("pbs"))
@@ -30,8 +30,10 @@ matplotlib.rcParams.update({
     "lines.linewidth": 1.2, "lines.markersize": 3.2, "axes.linewidth": 0.6,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "axes.grid": True, "grid.linewidth": 0.3, "grid.color": light,
     "axes.axisbelow": True, "legend.frameon": False, "savefig.dpi": 300, "pdf.fonttype": 42, "svg.fonttype": "none",
-    "svg.hashsalt": "pbskin", "axes.spines.top": False, "axes.spines.right": False, "figure.constrained_layout.use": True,
-    "figure.constrained_layout.h_pad": 0.07, "figure.constrained_layout.w_pad": 0.055})  # browsers set letters a little wider
+    "svg.hashsalt": "pbskin", "axes.spines.top": False, "axes.spines.right": False,
+    # Browsers set letters a little wider.
+    "figure.constrained_layout.use": True, "figure.constrained_layout.h_pad": 0.07,
+    "figure.constrained_layout.w_pad": 0.055})
 
 sequence = [(rose, "v"), (indigo, "o"), (teal, "^"), (wine, "D"), (sand, "s"), (cyan, "P"), (ink, "x")]
 lines = [*looks.lines.values(), "-", looks.lines["dashed"]]
@@ -43,7 +45,8 @@ def need_font():
     try:
         font_manager.findfont(font, fallback_to_default=False)
     except ValueError:
-        raise records.RecordsMissing(f"the font {font} is not installed; on Debian: apt-get install fonts-dejavu-core") from None
+        raise records.RecordsMissing(f"the font {font} is not installed; on Debian: apt-get install "
+                                     "fonts-dejavu-core") from None
 
 
 def panels(rows, columns, height_in=2.0, width_in=width_in, height_ratios=None, width_ratios=None, **options):
@@ -52,7 +55,8 @@ def panels(rows, columns, height_in=2.0, width_in=width_in, height_ratios=None, 
 
 
 def stacked(*rows):
-    """Rows of panels, each with a number of columns and a height [in] and its own layout; returns the axes of each row."""
+    """Rows of panels, each with a number of columns and a height [in] and its own layout; returns the axes of each
+    row."""
     figure = pyplot.figure(figsize=(width_in, sum(height for _, height in rows)))
     parts = figure.subfigures(len(rows), 1, height_ratios=[height for _, height in rows])
     return figure, [part.subplots(1, columns, squeeze=False)[0] for part, (columns, _) in zip(parts, rows)]
@@ -75,7 +79,8 @@ def draw(axes, deformer, rows, x, y, **options):
 
 
 def draw_series(axes, number, rows, x, y, bars=None, **options):
-    """The number-th line of several that belong to no deformer; bars: the columns of lower and upper ends for each point."""
+    """The number-th line of several that belong to no deformer; bars: the columns of lower and upper ends for each
+    point."""
     color, marker = sequence[number % len(sequence)]
     plot(axes, rows, x, y, **{"color": color, "marker": marker, "linestyle": lines[number % len(lines)]} | options)
     if bars:
@@ -107,7 +112,8 @@ def log_scale(axis, values=None, steps=(1, 2, 5)):
 
 
 def decades(axis):
-    """A logarithmic axis with plain numbers at whole decades only, if more would overlap; the ticks between have no labels."""
+    """A logarithmic axis with plain numbers at whole decades only, if more would overlap; the ticks between have no
+    labels."""
     log_scale(axis, steps=(1,))
     axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:,g}"))
     axis.set_minor_locator(ticker.LogLocator(subs=range(2, 10)))
@@ -121,7 +127,8 @@ def per_cent_scale(axes, signed):
     steps = [0.5, 2, 10, 100, 1000] if high - low > 25 else [0.5, 1, 2, 5, 10, 20]
     ticks = [0, *steps, *(-step for step in steps)]
     axes.yaxis.set_major_locator(ticker.FixedLocator([tick for tick in ticks if low <= tick <= high]))
-    text = (lambda value, _: f"{value:+g}".replace("-", "\u2212") if value else "0") if signed else (lambda value, _: f"{value:g}")
+    text = ((lambda value, _: f"{value:+g}".replace("-", "\u2212") if value else "0") if signed
+            else (lambda value, _: f"{value:g}"))
     axes.yaxis.set_major_formatter(ticker.FuncFormatter(text))
     axes.yaxis.set_minor_locator(ticker.NullLocator())
 
@@ -133,8 +140,9 @@ def key_below(figure):
         for handle, label in zip(*panel.get_legend_handles_labels()):
             shown.setdefault(textwrap.fill(label, 56), handle)
     for columns in range(min(len(shown), 4), 0, -1):
-        key = figure.legend(shown.values(), shown, loc="lower center", bbox_to_anchor=(0.5, 0), ncol=columns, borderpad=0.6,
-                            borderaxespad=0, fontsize=tick_size, labelspacing=0.35, columnspacing=1.2, handlelength=2.4)
+        key = figure.legend(shown.values(), shown, loc="lower center", bbox_to_anchor=(0.5, 0), ncol=columns,
+                            borderpad=0.6, borderaxespad=0, fontsize=tick_size, labelspacing=0.35, columnspacing=1.2,
+                            handlelength=2.4)
         box = key.get_window_extent(figure.canvas.get_renderer())
         if box.width <= figure.bbox.width:
             break
@@ -151,16 +159,18 @@ def break_words(figure):
         beside = {axes.title: axes.bbox.width, axes._left_title: axes.bbox.width, axes.xaxis.label: axes.bbox.width,
                   axes.yaxis.label: axes.bbox.height}
         for text, room in beside.items():
-            box, words = text.get_window_extent(), text.get_text().replace(" %", "\u00a0%").replace(" [", "\u00a0[")  # a unit stays
+            # A no-break space keeps a unit with its quantity.
+            box, words = text.get_window_extent(), text.get_text().replace(" %", "\u00a0%").replace(" [", "\u00a0[")
             length = box.height if text is axes.yaxis.label else box.width
             if length > room and "$" not in words:
                 longest = max(map(len, words.splitlines()))
-                text.set_text("\n".join(textwrap.fill(line, max(8, int(longest * room / length))) for line in words.splitlines()))
+                text.set_text("\n".join(textwrap.fill(line, max(8, int(longest * room / length)))
+                                        for line in words.splitlines()))
 
 
 def spread(wanted, heights, low, high):
-    """The middles of labels of these heights, from the lowest to the highest, as near as possible to the wanted ones without overlap:
-    labels that push each other have their mean place (pooled adjacent violators)."""
+    """The middles of labels of these heights, from the lowest to the highest, as near as possible to the wanted ones
+    without overlap: labels that push each other have their mean place (pooled adjacent violators)."""
     below = [sum(heights[:place]) + height / 2 for place, height in enumerate(heights)]
     pools = []
     for middle, under in zip(wanted, below):
@@ -173,24 +183,27 @@ def spread(wanted, heights, low, high):
 
 
 def label_ends(axes, texts):
-    """Labels to the right of a panel, when the figure is complete but for them; texts: line -> text. A thin line leads to the right end of
-    each line."""
+    """Labels to the right of a panel, when the figure is complete but for them; texts: line -> text. A thin line leads
+    to the right end of each line."""
     axes.figure.canvas.figure.draw_without_rendering()  # computes the height of the panel
     ends = {line: max(line.get_transform().transform(line.get_xydata()).tolist()) for line, text in texts.items()
             if text and len(line.get_xydata())}
     lines = sorted(ends, key=lambda line: ends[line][1])
     heights = [(1.22 * texts[line].count("\n") + 1.45) * tick_size * axes.figure.dpi / 72 for line in lines]
-    middles = spread([ends[line][1] for line in lines], heights, axes.bbox.y0, max(axes.bbox.y1, axes.bbox.y0 + sum(heights)))
+    middles = spread([ends[line][1] for line in lines], heights, axes.bbox.y0,
+                     max(axes.bbox.y1, axes.bbox.y0 + sum(heights)))
     for line, middle in zip(lines, middles):
-        axes.annotate(texts[line], axes.transAxes.inverted().transform(ends[line]), (1.05, (middle - axes.bbox.y0) / axes.bbox.height),
-                      xycoords="axes fraction", textcoords="axes fraction", va="center", fontsize=tick_size, color=line.get_color(),
-                      annotation_clip=False, arrowprops={"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.4, "shrinkA": 0,
-                                                         "shrinkB": 2, "relpos": (0, 0.5)})
+        axes.annotate(texts[line], axes.transAxes.inverted().transform(ends[line]),
+                      (1.05, (middle - axes.bbox.y0) / axes.bbox.height), xycoords="axes fraction",
+                      textcoords="axes fraction", va="center", fontsize=tick_size, color=line.get_color(),
+                      annotation_clip=False, arrowprops={"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.4,
+                                                         "shrinkA": 0, "shrinkB": 2, "relpos": (0, 0.5)})
 
 
 def name_area(axes, text, place, **options):
     """A name within a grey area of a panel, at a place in data coordinates."""
-    axes.annotate(text, place, **{"xycoords": ("axes fraction", "data"), "fontsize": tick_size, "va": "center"} | options)
+    axes.annotate(text, place, **{"xycoords": ("axes fraction", "data"), "fontsize": tick_size,
+                                  "va": "center"} | options)
 
 
 def show(panel, picture, title="", below=""):
@@ -219,7 +232,8 @@ def ratio_bar(figure, axes, scale, colors):
 
 
 def bone_in_words(bone, next_to=""):
-    """The name of a bone in words: left upper arm for `upper_arm.L`. The side is left out next to a bone on the same side."""
+    """The name of a bone in words: left upper arm for `upper_arm.L`. The side is left out next to a bone on the same
+    side."""
     name, _, side = bone.partition(".")
     known = side == next_to.partition(".")[2]
     return " ".join([*({"L": ["left"], "R": ["right"]}.get(side, []) if not known else []), *name.split("_")])
@@ -229,20 +243,24 @@ def source_of(provenance):
     """Version, revision, processor and the hashes of the shown scenes, for a file's metadata."""
     processor = f"; {provenance['cpu_model']}" if "cpu_model" in provenance else ""
     scenes = "".join(f"; scene {name} {digest}" for name, digest in provenance.get("scenes", {}).items())
-    return "pbskin {} {}{}{}{}".format(provenance.get("version", "?"), provenance.get("git_revision", "unknown revision"),
+    return "pbskin {} {}{}{}{}".format(provenance.get("version", "?"),
+                                       provenance.get("git_revision", "unknown revision"),
                                        " (dirty)" if provenance.get("git_dirty") else "", processor, scenes)
 
 
 def save(figure, stem, provenance, table, formats=("pdf", "png", "svg"), dpi=300):
-    """Writes stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv with the rows behind the figure. In the
-    SVG, every drawn point has its label and numbers as a title, which a browser shows under the pointer."""
+    """Writes stem.pdf, stem.png and stem.svg with the revision in their metadata, and stem.csv with the rows behind the
+    figure. In the SVG, every drawn point has its label and numbers as a title, which a browser shows under the
+    pointer."""
     source, rights = source_of(provenance), provenance.get("rights", "")
     metadata = {"pdf": {"Title": stem.name, "Subject": source, "Keywords": rights, "CreationDate": None},
                 "png": {"Title": stem.name, "Source": source, "Copyright": rights, "Software": "pbskin paper_figures"},
-                "svg": {"Title": stem.name, "Source": source, "Rights": rights, "Creator": "pbskin paper_figures", "Date": None}}
+                "svg": {"Title": stem.name, "Source": source, "Rights": rights, "Creator": "pbskin paper_figures",
+                        "Date": None}}
     break_words(figure)
     figure.draw_without_rendering()
-    figure.set_layout_engine("none")  # the layout is computed once, so that it is the same in every format and in hover_titles
+    # The layout is computed once, so that it is the same in every format and in hover_titles.
+    figure.set_layout_engine("none")
     for ending in formats:
         with whole_file.beside(stem.with_suffix("." + ending)) as path:
             figure.savefig(path, metadata=metadata[ending], dpi=150 if ending == "svg" else dpi)
@@ -255,7 +273,8 @@ def save(figure, stem, provenance, table, formats=("pdf", "png", "svg"), dpi=300
 def write_table(file, rows):
     """The rows (dicts) as CSV; a cell is empty if its row has no such column."""
     with whole_file.beside(file) as path, open(path, "w", newline="") as stream:
-        writer = csv.DictWriter(stream, list(dict.fromkeys(column for row in rows for column in row)), restval="", lineterminator="\n")
+        writer = csv.DictWriter(stream, list(dict.fromkeys(column for row in rows for column in row)), restval="",
+                                lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
 

@@ -1,13 +1,15 @@
-"""The figures of the study of convergence: PBS over 1,000 iterations from four initial guesses, and from LBS on a sequence of meshes."""
+"""The figures of the study of convergence: PBS over 1,000 iterations from four initial guesses, and from LBS on a
+sequence of meshes."""
 import math
 
 import records
 from drawing import style
 from words.number_words import span
 
-# The upper panels show the residual of the constraints, the lower ones the distance to the finite element reference. The error does not
-# follow the residual: in the twist it grows again while PBS converges to a different shape. Starting from the previous frame or the rest
-# pose, PBS has no information about the twist of a limb, so the residual is small and the error large.
+# The upper panels show the residual of the constraints, the lower ones the distance to the finite element reference.
+# The error does not follow the residual: in the twist it grows again while PBS converges to a different shape. Starting
+# from the previous frame or the rest pose, PBS has no information about the twist of a limb, so the residual is small
+# and the error large.
 
 cases = [("limb_twist", "twist_90", "limb, twist 90\u00b0"), ("limb_bend", "bend_60", "limb, bend 60\u00b0"),
          ("human", "01_01_crouch", "human, crouch")]
@@ -32,15 +34,19 @@ def draw_case(axes, file, column, limits, pose):
         rows = [row for row in records.table(file, {"pose", "iteration", column} | setting) if row["pose"] == pose]
         rows = of_default(rows, start, f"{file}: no rows of {pose}, ordered f32, k_stretch 0.2, start {start}")
         style.draw_series(axes, number, rows, "iteration", column, label=label)
-        behind += [{"case": file.parent.name, "pose": pose, "start": start, "measure": column, "iteration": i, "value": v}
+        behind += [{"case": file.parent.name, "pose": pose, "start": start, "measure": column, "iteration": i,
+                    "value": v}
                    for i, v in zip(records.numbers(rows, "iteration"), records.numbers(rows, column))]
     axes.set_xscale("symlog", linthresh=1, linscale=0.4)
     axes.set_xticks([0, 1, 10, 100, 1000], ["0", "1", "10", "100", "1000"])
     axes.axvline(24, color=style.ink, linewidth=0.6)
     axes.set(xlim=(0, 1100), yscale="log", ylim=limits)
     most = {label: max(row["value"] for row in behind if row["start"] == start) for start, label in starts.items()}
-    below = [f"{label}: below $10^{{{math.ceil(math.log10(value))}}}$" for label, value in most.items() if value < limits[0]]  # the panel
-    style.name_area(axes, "\n".join(below), (0.97, limits[1]), ha="right", va="top", bbox={"color": "white", "pad": 1.0})
+    # These lie below the panel.
+    below = [f"{label}: below $10^{{{math.ceil(math.log10(value))}}}$"
+             for label, value in most.items() if value < limits[0]]
+    style.name_area(axes, "\n".join(below), (0.97, limits[1]), ha="right", va="top",
+                    bbox={"color": "white", "pad": 1.0})
     return behind
 
 
@@ -50,16 +56,18 @@ def convergence_iterations(results):
     for panels, (case, pose, _) in zip(axes.T, cases):
         for panel, (table, measure, _, limits) in zip(panels, measures):
             behind += draw_case(panel, results / "convergence" / case / table, measure, limits, pose)
-    style.label(axes, [title for *_, title in cases], [label for _, _, label, _ in measures], ["iterations; line: the paper's 24"] * 3)
+    style.label(axes, [title for *_, title in cases], [label for _, _, label, _ in measures],
+                ["iterations; line: the paper's 24"] * 3)
     style.log_scale(axes[1][0].yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500])
     style.log_scale(axes[0][0].yaxis, [0.01, 0.1, 1])
     style.key_below(drawing)
     return drawing, behind
 
 
-# PBS from LBS on a sequence of meshes of one limb, twisted and bent by 90 degrees, after 24 iterations (filled) and after the last
-# (hollow): the residual of the constraints, the volume change per tet, the distance of the joint from the finite elements, and the
-# iterations until volumes are kept within 0.5 %. This shows whether 24 iterations achieve the same on fine meshes as on coarse ones.
+# PBS from LBS on a sequence of meshes of one limb, twisted and bent by 90 degrees, after 24 iterations (filled) and
+# after the last (hollow): the residual of the constraints, the volume change per tet, the distance of the joint from
+# the finite elements, and the iterations until volumes are kept within 0.5 %. This shows whether 24 iterations achieve
+# the same on fine meshes as on coarse ones.
 
 ladders = {"ladder_twist": "twist 90\u00b0", "ladder_bend": "bend 90\u00b0"}
 of_panels = [("residual_24", "last_residual", "combined residual [1]"),
@@ -72,12 +80,15 @@ columns = setting | {"vertices", "iterations", "iterations_to_volume", "volume_r
 def draw_measure(axes, rows, name, number, early, late):
     """Where no reference was computed for a mesh, the panel states that."""
     if not any(is_measured(row, early) for row in rows):
-        axes.annotate(f"{name}: no reference on record", (0.5, 0.5 + 0.1 * number), xycoords="axes fraction", ha="center")
+        axes.annotate(f"{name}: no reference on record", (0.5, 0.5 + 0.1 * number), xycoords="axes fraction",
+                      ha="center")
         return
-    for column, iterations, look in ((early, 24, {}), (late, int(rows[0]["iterations"]), {"markerfacecolor": "white", "linewidth": 0.7})):
+    for column, iterations, look in ((early, 24, {}), (late, int(rows[0]["iterations"]),
+                                                       {"markerfacecolor": "white", "linewidth": 0.7})):
         measured = [row for row in rows if is_measured(row, column)]
         if measured:
-            style.draw_series(axes, number, measured, "vertices", column, label=f"{name}, {iterations:,} iterations", **look)
+            style.draw_series(axes, number, measured, "vertices", column, label=f"{name}, {iterations:,} iterations",
+                              **look)
     axes.set_yscale("log")
 
 
@@ -89,12 +100,13 @@ def draw_iterations(axes, rows, name, number):
     """A caret marks a mesh whose tolerance was not reached at the last iteration."""
     color, marker = style.sequence[number]
     axes.set_yscale("log")
-    style.plot(axes, rows, "vertices", "iterations_to_volume", color=color, linestyle=style.lines[number], linewidth=0.7)
+    style.plot(axes, rows, "vertices", "iterations_to_volume", color=color, linestyle=style.lines[number],
+               linewidth=0.7)
     for reached, words in ((True, "reached"), (False, "not reached")):
         shown = [row for row in rows if (float(row["volume_reached"]) == 1.0) == reached]
         if shown:
-            style.plot(axes, shown, "vertices", "iterations_to_volume", color=color, marker=marker if reached else 6, linestyle="none",
-                       markersize=4 if reached else 8 - 3 * number, label=f"{name}, {words}")
+            style.plot(axes, shown, "vertices", "iterations_to_volume", color=color, marker=marker if reached else 6,
+                       linestyle="none", markersize=4 if reached else 8 - 3 * number, label=f"{name}, {words}")
 
 
 def convergence_mesh_facts(rows):
@@ -111,7 +123,8 @@ def convergence_mesh(results):
     behind = []
     for number, (ladder, name) in enumerate(ladders.items()):
         file = results / "convergence" / ladder / "rates.csv"
-        rows = of_default(records.table(file, columns), "lbs", f"{file}: no rows of ordered f32 from LBS with k_stretch 0.2")
+        rows = of_default(records.table(file, columns), "lbs", f"{file}: no rows of ordered f32 from LBS with "
+                                                               "k_stretch 0.2")
         rows.sort(key=lambda row: int(row["vertices"]))
         for panel, (early, late, label) in zip(axes.flat, of_panels):
             draw_measure(panel, rows, name, number, early, late)

@@ -1,5 +1,5 @@
-"""The paper's Figures 2, 4, 6 and 7, drawn from the records: the tets cut open in front of the skeleton, the end points of a bone and the
-rule of Eq. 2, one tet with its constraints, and the bind constraint of one vertex."""
+"""The paper's Figures 2, 4, 6 and 7, drawn from the records: the tets cut open in front of the skeleton, the end points
+of a bone and the rule of Eq. 2, one tet with its constraints, and the bind constraint of one vertex."""
 from itertools import combinations
 
 import numpy
@@ -27,7 +27,8 @@ def fig_02_tets_and_bones(results):
     forward, left = heading_of(human.bones_at_rest())
     view = rendering.Camera((low + high) / 2, 0.54 * (high - low)[1], forward + 0.35 * left + (0, 0.1, 0))
     shown = ((human, rendering.read(human.skin_at_rest()), forward, view, 0.009, (1100, 1200), "human, at rest"),
-             (limb, bodies.at_rest(limb.tets("lbs", 0)), (0.0, 0.0, 1.0), limb_view, 0.012, (1500, 420), "limb, at rest"))
+             (limb, bodies.at_rest(limb.tets("lbs", 0)), (0.0, 0.0, 1.0), limb_view, 0.012, (1500, 420),
+              "limb, at rest"))
     figure, axes = style.panels(1, 2, height_in=2.8, width_ratios=(1, 1.2))
     behind = []
     for panel, (frames, skin, towards, view, rod_m, pixels, title) in zip(axes[0], shown):
@@ -38,8 +39,8 @@ def fig_02_tets_and_bones(results):
     return figure, behind
 
 
-# Figure 4: the end points s_j and d_j of a bone, the projection of a vertex on it, and the blended vertices over their parameter on the
-# nearest bone.
+# Figure 4: the end points s_j and d_j of a bone, the projection of a vertex on it, and the blended vertices over their
+# parameter on the nearest bone.
 low, high = 1 / 6, 5 / 6  # Eq. 2: vertices between these parameters are rigid
 kinds = {"0": ("one bone", style.cyan, "o"), "1": ("blended between bones", style.rose, "^")}
 
@@ -54,7 +55,8 @@ dense = {"linestyle": "", "markersize": 1.6, "rasterized": True, "gid": "guide"}
 
 
 def draw_limb(panel, frames):
-    """The limb at rest from the side: a slice around the plane of drawing, the bones, and one vertex with its projection."""
+    """The limb at rest from the side: a slice around the plane of drawing, the bones, and one vertex with its
+    projection."""
     points, binding = bodies.rest_positions_of(frames.tets("lbs", 0)), frames.binding()
     for blended, (label, color, marker) in kinds.items():
         shown = points[[int(row["vertex"]) for row in binding if row["blended"] == blended]]
@@ -62,9 +64,11 @@ def draw_limb(panel, frames):
     for bone in frames.bones(0):
         draw_bones(panel, [bone])
         for share in (low, high):
-            panel.axvline(bone.head[0] + share * (bone.tail[0] - bone.head[0]), color=style.ink, linewidth=0.8, linestyle=(0, (4, 2)))
+            panel.axvline(bone.head[0] + share * (bone.tail[0] - bone.head[0]), color=style.ink, linewidth=0.8,
+                          linestyle=(0, (4, 2)))
     mark_vertex(panel, frames, points)
-    panel.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", ylim=(-0.2, 0.42), title="limb at rest; dashed: 1/6 and 5/6 of each bone")
+    panel.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", ylim=(-0.2, 0.42),
+              title="limb at rest; dashed: 1/6 and 5/6 of each bone")
 
 
 def mark_vertex(panel, frames, points):
@@ -76,7 +80,8 @@ def mark_vertex(panel, frames, points):
     panel.plot(*zip(vertex[:2], foot[:2]), color=style.ink, linewidth=1, marker="D", markersize=3)
     for text, end, offset, side in ((r"$s_j$", bone.head, (0, 32), "center"), (r"$d_j$", bone.tail, (0, 32), "center"),
                                     (f"$v_i$, at {parameter:.2f}\nof the bone", vertex, (14, 8), "left")):
-        panel.annotate(text, end[:2], offset, textcoords="offset points", ha=side, arrowprops={"arrowstyle": "-", "linewidth": 0.5})
+        panel.annotate(text, end[:2], offset, textcoords="offset points", ha=side,
+                       arrowprops={"arrowstyle": "-", "linewidth": 0.5})
 
 
 def draw_rule(panel, frames):
@@ -87,7 +92,8 @@ def draw_rule(panel, frames):
         x, y = ([float(row[name]) for row in rows] for name in ("parameter", "rest_distance_m"))
         named = f"human's vertices {'on ' if blended == '0' else ''}{label}: {len(rows)}"
         panel.plot(x, 1000 * numpy.array(y), marker=marker, color=color, label=named, **dense)
-    panel.set(xlabel="position of its projection from $s_j$ (0) to $d_j$ (1) [1]", ylabel="distance to the bone [mm]", xlim=(-0.25, 1.75))
+    panel.set(xlabel="position of its projection from $s_j$ (0) to $d_j$ (1) [1]", ylabel="distance to the bone [mm]",
+              xlim=(-0.25, 1.75))
     panel.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
 
@@ -124,7 +130,8 @@ def views(count=200):
     """Directions across and up the page, 2 x 3, from evenly spread viewing directions."""
     for step in range(count):
         height, turn = 1 - 2 * (step + 0.5) / count, numpy.pi * (3 - 5 ** 0.5) * step
-        sight = numpy.array([(1 - height ** 2) ** 0.5 * numpy.cos(turn), height, (1 - height ** 2) ** 0.5 * numpy.sin(turn)])
+        sight = numpy.array([(1 - height ** 2) ** 0.5 * numpy.cos(turn), height,
+                             (1 - height ** 2) ** 0.5 * numpy.sin(turn)])
         across = numpy.cross((0, 1, 0), sight) / numpy.linalg.norm(numpy.cross((0, 1, 0), sight))
         yield numpy.array([across, numpy.cross(sight, across)])
 
@@ -146,7 +153,8 @@ def draw_tet(panel, state, corners, rest):
     for edge in edges:
         panel.plot(*places[list(edge)].T, color=color, linewidth=1.4, marker=marker, markersize=4)
     for number, place in enumerate(places, 1):
-        panel.annotate(f"$p_{number}$", place, place + 0.014 * place / numpy.linalg.norm(place), ha="center", va="center")
+        panel.annotate(f"$p_{number}$", place, place + 0.014 * place / numpy.linalg.norm(place), ha="center",
+                       va="center")
     change_pct = 100 * (volume_cm3(corners) / volume_cm3(rest) - 1)
     text = f"$V$ = {volume_cm3(corners):.1f} cm\u00b3" + (f" ({change_pct:+.0f} %)" if state != "rest" else " = $V_0$")
     panel.set(xticks=[], yticks=[], aspect="equal", title=title, xlabel=style.signed(text))
@@ -157,8 +165,9 @@ def draw_tet(panel, state, corners, rest):
 def draw_lengths(panel, corners):
     """|p_i - p_j| of the six stretch constraints."""
     for state, (color, marker, title) in states.items():
-        panel.plot([f"{one + 1}{other + 1}" for one, other in edges], lengths_mm(corners[state]), color=color, linestyle="", marker=marker,
-                   markersize=5, label=title, fillstyle="none" if state == "rest" else "full")
+        panel.plot([f"{one + 1}{other + 1}" for one, other in edges], lengths_mm(corners[state]), color=color,
+                   linestyle="", marker=marker, markersize=5, label=title,
+                   fillstyle="none" if state == "rest" else "full")
     panel.set(xlabel="edge $ij$", ylabel="length of the edge [mm]", title="six stretch constraints",
               ylim=(0, 1.35 * max(map(max, map(lengths_mm, corners.values())))))
     panel.legend(loc="upper right", ncol=1, handletextpad=0.2)
@@ -169,8 +178,10 @@ def fig_06_constraints(results):
     frame = frames.frame_at_angle(90)
     lbs = frames.tets("lbs", frame)
     ratios = vtk_to_numpy(rendering.read(lbs).GetCellData().GetArray("volume_ratio"))
-    tet = int(numpy.where(ratios > 0.2, ratios, numpy.inf).argmin())  # the one that LBS has compressed most without inverting it
-    points = {"rest": bodies.rest_positions_of(lbs), "lbs": bodies.points_of(lbs), "pbs": bodies.points_of(frames.tets("pbs", frame))}
+    # The one that LBS has compressed most without inverting it.
+    tet = int(numpy.where(ratios > 0.2, ratios, numpy.inf).argmin())
+    points = {"rest": bodies.rest_positions_of(lbs), "lbs": bodies.points_of(lbs),
+              "pbs": bodies.points_of(frames.tets("pbs", frame))}
     corners = {state: points[state][rendering.corners_of(rendering.read(lbs))[tet]] for state in states}  # [m], 4 x 3
     figure, (tets, (lengths,)) = style.stacked((3, 1.7), (1, 1.9))
     for panel, state in zip(tets, states):
@@ -190,14 +201,17 @@ def fig_06_constraints_facts(rows):
     return {state: f"{100 * volumes[state] / volumes['rest']:.0f}" for state in ("lbs", "pbs")}
 
 
-# Figure 7: a vertex, its projection on the bone, and the distance that the bind constraint keeps, at rest and in the bent limb after LBS
-# and after PBS.
+# Figure 7: a vertex, its projection on the bone, and the distance that the bind constraint keeps, at rest and in the
+# bent limb after LBS and after PBS.
 
 def chosen_vertex(frames, rest, lbs, pbs):
-    """The vertex that PBS moved farthest from LBS, among those of the forearm's blended skin in the plane of bending."""
+    """The vertex that PBS moved farthest from LBS, among those of the forearm's blended skin in the plane of
+    bending."""
     moved = numpy.linalg.norm((pbs - lbs) * (1, 1, 0), axis=1)
-    rows = [row for row in frames.binding() if row["bone"] == "forearm" and row["blended"] == "1" and row["jiggles"] == "1"]
-    near = [int(row["vertex"]) for row in rows if abs(rest[int(row["vertex"])][2]) < 0.02 and rest[int(row["vertex"])][1] < 0]
+    rows = [row for row in frames.binding() if row["bone"] == "forearm" and row["blended"] == "1"
+            and row["jiggles"] == "1"]
+    near = [int(row["vertex"]) for row in rows if abs(rest[int(row["vertex"])][2]) < 0.02
+            and rest[int(row["vertex"])][1] < 0]
     return max(near, key=lambda vertex: moved[vertex])
 
 

@@ -1,5 +1,5 @@
-"""How PBS moves flesh: the momentum that a projection changes, the response to a jolt, the stiffness against the settings of the solver,
-and the elastic material that k_stretch corresponds to."""
+"""How PBS moves flesh: the momentum that a projection changes, the response to a jolt, the stiffness against the
+settings of the solver, and the elastic material that k_stretch corresponds to."""
 import sys
 
 import records
@@ -7,13 +7,14 @@ from drawing import style
 from words import looks
 from words.number_words import figure, span
 
-# The change of linear and angular momentum by one projection of a class of constraints, relative to the momentum exchanged. With weighted
-# masses only rounding remains, in both precisions. The formulae for unit masses (Eq. 8-9) on unequal masses lose up to a third. The bind
-# constraint transfers all of it to the bones, whose motion is prescribed.
+# The change of linear and angular momentum by one projection of a class of constraints, relative to the momentum
+# exchanged. With weighted masses only rounding remains, in both precisions. The formulae for unit masses (Eq. 8-9) on
+# unequal masses lose up to a third. The bind constraint transfers all of it to the bones, whose motion is prescribed.
 
-quantities = {"linear_drift": "linear momentum", "angular_drift": "angular momentum", "linear_drift_taken_by_bones": "linear momentum",
-              "angular_drift_taken_by_bones": "angular momentum"}
-masses = {"equal": "equal masses", "unequal": "unequal masses, weighted", "unequal_by_eq_8_9": "unequal masses, Eq. 8\u20139"}
+quantities = {"linear_drift": "linear momentum", "angular_drift": "angular momentum",
+              "linear_drift_taken_by_bones": "linear momentum", "angular_drift_taken_by_bones": "angular momentum"}
+masses = {"equal": "equal masses", "unequal": "unequal masses, weighted", "unequal_by_eq_8_9": "unequal masses, Eq. "
+                                                                                               "8\u20139"}
 looks_of_drift = {("limb", "f32"): (style.rose, "v"), ("limb", "f64"): (style.rose, "^"),
                   ("human", "f32"): (style.indigo, "o"), ("human", "f64"): (style.indigo, "s")}
 
@@ -21,8 +22,8 @@ looks_of_drift = {("limb", "f32"): (style.rose, "v"), ("limb", "f64"): (style.ro
 def drift_of(results, body):
     """One row per class of constraints, masses and precision, from single projections."""
     file = results / "momentum" / body / "measurements.csv"
-    found = [{"momentum": quantities[row["quantity"]], "masses": row["masses"], "body": body, "constraints": row["constraint"],
-              "precision": row["precision"], "drift": row["value"]}
+    found = [{"momentum": quantities[row["quantity"]], "masses": row["masses"], "body": body,
+              "constraints": row["constraint"], "precision": row["precision"], "drift": row["value"]}
              for row in records.table(file, {"quantity", "body", "masses", "constraint", "precision", "value"})
              if row["quantity"] in quantities and row["body"] == body]
     records.need(found, f"{file}: no drift of {body}")
@@ -32,13 +33,16 @@ def drift_of(results, body):
 def momentum_drift(results):
     rows = [row for body in ("limb", "human") for row in drift_of(results, body)]
     by_class = sorted(rows, key=lambda row: row["constraints"], reverse=True)
-    places = {key: place for place, key in enumerate(dict.fromkeys((row["constraints"], row["masses"]) for row in by_class))}
+    places = {key: place
+              for place, key in enumerate(dict.fromkeys((row["constraints"], row["masses"]) for row in by_class))}
     drawing, axes = style.panels(1, 2, height_in=3.4, sharey=True)
     for panel, momentum in zip(axes[0], ("linear momentum", "angular momentum")):
         for (body, precision), (color, marker) in looks_of_drift.items():
-            shown = [row for row in rows if (row["momentum"], row["body"], row["precision"]) == (momentum, body, precision)]
+            shown = [row for row in rows if (row["momentum"], row["body"],
+                                             row["precision"]) == (momentum, body, precision)]
             aside = 0.15 if precision == "f64" else -0.15
-            panel.plot([float(row["drift"]) for row in shown], [places[row["constraints"], row["masses"]] + aside for row in shown],
+            panel.plot([float(row["drift"]) for row in shown], [places[row["constraints"], row["masses"]] + aside
+                                                                for row in shown],
                        linestyle="none", marker=marker, color=color, label=f"{body}, {precision}", markersize=4.5,
                        markerfacecolor=color if precision == "f32" else "white")
         style.name_rows(panel, [f"{constraints}, {masses[of]}" for constraints, of in places])
@@ -47,12 +51,13 @@ def momentum_drift(results):
     return drawing, rows
 
 
-# Frequency and damping ratio of the first swing after a jolt against k_stretch, time step and iterations, on the limb and on bodies.
-# k_stretch strongly changes Frankie's frequency and hardly that of the others. Time step and iterations, which are not material parameters,
-# change all frequencies. Damping is not a parameter at all; the finite elements shown for comparison swing almost undamped.
+# Frequency and damping ratio of the first swing after a jolt against k_stretch, time step and iterations, on the limb
+# and on bodies. k_stretch strongly changes Frankie's frequency and hardly that of the others. Time step and iterations,
+# which are not material parameters, change all frequencies. Damping is not a parameter at all; the finite elements
+# shown for comparison swing almost undamped.
 
-jolt_columns = {"deformer", "k_stretch", "time_step_ms", "iterations", "masses", "k_bind", "outcome", "frequency_hz", "frequency_low_hz",
-                "frequency_high_hz", "damping_ratio", "damping_low", "damping_high", "young_pa"}
+jolt_columns = {"deformer", "k_stretch", "time_step_ms", "iterations", "masses", "k_bind", "outcome", "frequency_hz",
+                "frequency_low_hz", "frequency_high_hz", "damping_ratio", "damping_low", "damping_high", "young_pa"}
 usual_jolt = {"k_stretch": 0.1, "time_step_ms": 10.0, "iterations": 24.0}
 names = {"k_stretch": "k_stretch [1]", "time_step_ms": "time step [ms]", "iterations": "iterations"}
 measures = [("frequency_hz", ("frequency_low_hz", "frequency_high_hz"), "frequency [Hz]"),
@@ -78,8 +83,9 @@ def draw_jolted(axes, rows, body, number):
 
 
 def draw_reference(axes, rows):
-    """Damping of the limb with finite elements in time, and of PBS on the same mesh with the default iterations. The modulus of the
-    elements was chosen so that they swing at the same frequency, so their frequency carries no information."""
+    """Damping of the limb with finite elements in time, and of PBS on the same mesh with the default iterations. The
+    modulus of the elements was chosen so that they swing at the same frequency, so their frequency carries no
+    information."""
     found = [row for row in rows if row["outcome"] == "found" and float(row["k_bind"]) == 1.0
              and float(row["iterations"]) == usual_jolt["iterations"]]
     for row in found:
@@ -89,22 +95,25 @@ def draw_reference(axes, rows):
             row["deformer"], label=label, linestyle="none", markersize=8, markerfacecolor="none", markeredgewidth=0.8))
     last = {row["deformer"] == "pbs": (float(row["k_stretch"]), float(row["damping_ratio"])) for row in found}
     for is_pbs, place in last.items():
-        axes.annotate("PBS on the FEM's mesh" if is_pbs else "FEM in time, limb", place, (7, -7 if is_pbs else 7), va="center",
-                      textcoords="offset points", fontsize=style.tick_size)
+        axes.annotate("PBS on the FEM's mesh" if is_pbs else "FEM in time, limb", place, (7, -7 if is_pbs else 7),
+                      va="center", textcoords="offset points", fontsize=style.tick_size)
     return style.taken(found, sorted(jolt_columns), body="limb_reference", varied="")
 
 
 def jiggle_response_facts(rows):
-    """The ratio by which each factor changes the frequency over the values shown, over the bodies; the settings that are held fixed; and
-    the elements' moduli."""
+    """The ratio by which each factor changes the frequency over the values shown, over the bodies; the settings that
+    are held fixed; and the elements' moduli."""
     def folds(factor):
-        hz = [[float(row["frequency_hz"]) for row in rows if (row["body"], row["varied"]) == (body, factor)] for body in jolted]
+        hz = [[float(row["frequency_hz"]) for row in rows if (row["body"], row["varied"]) == (body, factor)]
+              for body in jolted]
         return span([max(found) / min(found) for found in hz if len(found) > 1])
 
-    young_kpa = [float(row["young_pa"]) / 1000 for row in rows if row["body"] == "limb_reference" and row["deformer"] != "pbs"]
+    young_kpa = [float(row["young_pa"]) / 1000 for row in rows if row["body"] == "limb_reference"
+                 and row["deformer"] != "pbs"]
     k_stretch, step_ms, iterations = (figure(value) for value in usual_jolt.values())
     held = f"k_stretch {k_stretch}, {step_ms} ms and {iterations} iterations"
-    return {factor: folds(factor) for factor in names if factor != "k_stretch"} | {"held": held, "young_kpa": span(young_kpa)}
+    return {factor: folds(factor) for factor in names if factor != "k_stretch"} | {"held": held,
+                                                                                   "young_kpa": span(young_kpa)}
 
 
 def jiggle_response(results):
@@ -124,9 +133,10 @@ def jiggle_response(results):
     return drawing, behind
 
 
-# Force over displacement of flesh under its weight against iterations, time step and resolution. The stiffness of a material would be a
-# flat line. The stiffness of PBS grows with the iterations and falls with the square of the time step. Mueller's exponent removes neither
-# dependence. XPBD, which keeps multipliers, is nearly flat. Values too stiff to move in double precision are left out.
+# Force over displacement of flesh under its weight against iterations, time step and resolution. The stiffness of a
+# material would be a flat line. The stiffness of PBS grows with the iterations and falls with the square of the time
+# step. Mueller's exponent removes neither dependence. XPBD, which keeps multipliers, is nearly flat. Values too stiff
+# to move in double precision are left out.
 
 bodies = [("bar", "cantilever", "bar, held at one end"), ("limb", "zone", "limb's jiggling zone"),
           ("human", "zone", "human's jiggling zone")]
@@ -134,18 +144,21 @@ factors = {"iterations": "iterations", "time_step_ms": "time step [ms]", "vertic
 usual = {"iterations": 24.0, "time_step_ms": 10.0}
 young_pa = 30e3  # of XPBD; some sweeps also use stiffer values
 of_claim = "stiffness_ratio_at_twice_iterations"
-stiffest_n_m = 1 / sys.float_info.epsilon  # beyond this, 1 N moves the flesh by less than double precision resolves at 1 m
+# Beyond this, 1 N moves the flesh by less than double precision resolves at 1 m.
+stiffest_n_m = 1 / sys.float_info.epsilon
 # method, k_stretch, its look, words after its name, and whether it is drawn hollow
 methods = [("pbs", 0.2, "pbs", ", k_stretch 0.2", False), ("pbs", 0.9, "pbs", ", k_stretch 0.9", True),
            ("exponent", 0.2, "pbs_exponent", "", False), ("xpbd", 0.2, "xpbd", ", 30 kPa", False),
            ("xpbd_small_steps", 0.2, "xpbd_small_steps", ", 30 kPa", True)]
-columns = {"body", "load", "vertices", "mesh", "method", "k_stretch", "young_pa", "iterations", "time_step_ms", "order_seed", "by",
-           "stiffness_n_m", "converged"}
+columns = {"body", "load", "vertices", "mesh", "method", "k_stretch", "young_pa", "iterations", "time_step_ms",
+           "order_seed", "by", "stiffness_n_m", "converged"}
 
 
 def varied(rows, factor, method, k_stretch):
-    """Rows by the linear response, in the first order of constraints. A row that did not converge or is not positive has no stiffness."""
-    rows = [row for row in rows if (row["method"], row["by"], row["order_seed"], row["converged"]) == (method, "linear", "0", "1")
+    """Rows by the linear response, in the first order of constraints. A row that did not converge or is not positive
+    has no stiffness."""
+    rows = [row for row in rows if (row["method"], row["by"], row["order_seed"],
+                                    row["converged"]) == (method, "linear", "0", "1")
             and float(row["stiffness_n_m"]) > 0]
     rows = only_varied(rows, factor, usual | {"k_stretch": k_stretch, "young_pa": young_pa})
     return sorted({float(row[factor]): row for row in rows}.values(), key=lambda row: float(row[factor]))
@@ -159,8 +172,10 @@ def draw_panel(axes, rows, factor):
         left_out += len(found) - len(shown)
         if shown:
             look = looks.of(deformer)
-            drawn = {"linestyle": looks.lines["dotted"], "markerfacecolor": "none"} if hollow else {"markerfacecolor": look.color}
-            style.plot(axes, shown, factor, "stiffness_n_m", **style.as_of(deformer, label=look.name + setting, **drawn))
+            drawn = {"linestyle": looks.lines["dotted"],
+                     "markerfacecolor": "none"} if hollow else {"markerfacecolor": look.color}
+            style.plot(axes, shown, factor, "stiffness_n_m",
+                       **style.as_of(deformer, label=look.name + setting, **drawn))
         behind += style.taken(shown, sorted(columns), varied=factor)
     values = sorted({float(row[factor]) for row in behind})
     axes.set_yscale("log")
@@ -174,10 +189,12 @@ def draw_panel(axes, rows, factor):
 
 
 def stiffness_facts(rows):
-    """The ratio by which XPBD stiffens over the iterations shown, plain and in small steps, over the bodies; and the other settings."""
+    """The ratio by which XPBD stiffens over the iterations shown, plain and in small steps, over the bodies; and the
+    other settings."""
     def folds(method):
         shown = [[float(row["stiffness_n_m"]) for row in rows
-                  if (row["body"], row["varied"], row["method"]) == (body, "iterations", method)] for body, _, _ in bodies]
+                  if (row["body"], row["varied"], row["method"]) == (body, "iterations", method)]
+                 for body, _, _ in bodies]
         return span([found[-1] / found[0] for found in shown if len(found) > 1])
 
     held = {"iterations": figure(usual["iterations"]), "step_ms": figure(usual["time_step_ms"])}
@@ -195,15 +212,16 @@ def stiffness(results):
             behind += draw_panel(panel, [row for row in rows if row["load"] == load], factor)
     for file in sorted(results.glob("stiffness/iterations_*/measurements.csv")):  # the values of C11
         rows = records.table(file, {"quantity", "body", "deformer", "load", "k_stretch", "value"})
-        behind += style.taken([row for row in rows if (row["quantity"], row["deformer"], row["load"]) == (of_claim, "pbs", "zone")],
+        behind += style.taken([row for row in rows if (row["quantity"], row["deformer"],
+                                                       row["load"]) == (of_claim, "pbs", "zone")],
                               ("body", "load", "k_stretch", "value"), varied="doubled iterations")
     style.label(axes, (), [f"{title}\nstiffness [N/m]" for *_, title in bodies], factors.values())
     style.key_below(drawing)
     return drawing, behind
 
 
-# Young's modulus of the elastic bar that sags as PBS does, over k_stretch, for several iteration counts and meshes, with the volume
-# constraints on.
+# Young's modulus of the elastic bar that sags as PBS does, over k_stretch, for several iteration counts and meshes,
+# with the volume constraints on.
 
 def fit(results):
     sag_columns = {"vertices", "k_stretch", "k_volume", "iterations", "young_pa", "settled"}
@@ -214,11 +232,12 @@ def fit(results):
     for vertices, line in zip(sorted({int(row["vertices"]) for row in rows}), ("-", (0, (4, 1.5)), (0, (1, 1)))):
         for iterations, (color, marker) in zip(counts, style.sequence):
             chosen = [row for row in rows if int(row["vertices"]) == vertices and int(row["iterations"]) == iterations]
-            axes.plot([float(row["k_stretch"]) for row in chosen], [float(row["young_pa"]) / 1e3 for row in chosen], color=color,
-                      marker=marker, linestyle=line, label=f"{iterations} iterations, {vertices} vertices")
+            axes.plot([float(row["k_stretch"]) for row in chosen], [float(row["young_pa"]) / 1e3 for row in chosen],
+                      color=color, marker=marker, linestyle=line, label=f"{iterations} iterations, {vertices} vertices")
     style.log_scale(axes.xaxis)
     style.decades(axes.yaxis)
-    axes.set(xlabel="k_stretch [1]", ylabel="Young's modulus [kPa]", title="by sag: k_volume 1, time step 10 ms, 1000 kg/m\u00b3")
+    axes.set(xlabel="k_stretch [1]", ylabel="Young's modulus [kPa]", title="by sag: k_volume 1, time step 10 ms, "
+                                                                           "1000 kg/m\u00b3")
     style.key_below(drawing)
-    return drawing, [{"shown": "young_kpa", "of": f"{row['vertices']} vertices, {row['iterations']} iterations", "at": row["k_stretch"],
-                      "value": float(row["young_pa"]) / 1e3} for row in rows]
+    return drawing, [{"shown": "young_kpa", "of": f"{row['vertices']} vertices, {row['iterations']} iterations",
+                      "at": row["k_stretch"], "value": float(row["young_pa"]) / 1e3} for row in rows]

@@ -1,5 +1,5 @@
-"""The figures of the stability study: the cells of each factor and method, and two maps in which two settings change together. The five
-outcomes have one look: darker is worse, and each has its own marker for grey prints."""
+"""The figures of the stability study: the cells of each factor and method, and two maps in which two settings change
+together. The five outcomes have one look: darker is worse, and each has its own marker for grey prints."""
 import textwrap
 
 import records
@@ -25,7 +25,8 @@ def draw_marks(axes, places, outcomes, size):
 def legend_of_outcomes(figure, axes, found):
     """A key of the outcomes that occur."""
     for marker, color, text in (look for outcome, look in looks_of_outcomes.items() if outcome in found):
-        axes.plot([], [], linestyle="none", marker=marker, color=color, markersize=9 if marker == "*" else 4.5, label=text)
+        axes.plot([], [], linestyle="none", marker=marker, color=color, markersize=9 if marker == "*" else 4.5,
+                  label=text)
     style.key_below(figure)
 
 
@@ -35,12 +36,12 @@ def counts(rows):
     return {"cells": len(found)} | {outcome: found.count(outcome) for outcome in looks_of_outcomes}
 
 
-# Every disturbance of the limb with every method, and its outcome. Each row is a quantity that is varied to its extremes, with marks from
-# the smallest to the largest value. The figure shows which methods come to rest as if undisturbed, which leave tets inverted, and whether
-# any method except the printed form of PBS diverges.
+# Every disturbance of the limb with every method, and its outcome. Each row is a quantity that is varied to its
+# extremes, with marks from the smallest to the largest value. The figure shows which methods come to rest as if
+# undisturbed, which leave tets inverted, and whether any method except the printed form of PBS diverges.
 
-models = ("pbs", "pbs_no_memory", "pbs_jiggle", "xpbd", "xpbd_small_steps", "fem_linear", "fem_corotational", "fem_stable_neo_hookean",
-          "fem_stable_neo_hookean_in_time")
+models = ("pbs", "pbs_no_memory", "pbs_jiggle", "xpbd", "xpbd_small_steps", "fem_linear", "fem_corotational",
+          "fem_stable_neo_hookean", "fem_stable_neo_hookean_in_time")
 cell_columns = {"body", "model", "factor", "value", "unit", "named", "second_factor", "precision", "outcome"}
 
 
@@ -71,13 +72,15 @@ def stability_cells(results):
             if row["body"] == "limb" and not row["second_factor"] and row["model"] in models]
     single = {row["model"] for row in rows if row["precision"] == "f32"}
     rows = [row for row in rows if row["precision"] == "f32" or row["model"] not in single]
-    of_factors = {factor: [row for row in rows if row["factor"] == factor] for factor in dict.fromkeys(row["factor"] for row in rows)}
+    of_factors = {factor: [row for row in rows if row["factor"] == factor]
+                  for factor in dict.fromkeys(row["factor"] for row in rows)}
     figure, ((panel,),) = style.panels(1, 1, height_in=1.6 + 0.27 * len(of_factors))
     for place, cells in enumerate(of_factors.values()):
         draw_factor(panel, cells, place)
     panel.set_xticks(range(len(models)), [textwrap.fill(looks.short(model), 20) for model in models], rotation=90)
     panel.set_xlim(-0.5, len(models) - 0.5)
-    style.name_rows(panel, [f"{case_words.of_field('factor', factor)}: {range_of(cells)}" for factor, cells in of_factors.items()])
+    style.name_rows(panel, [f"{case_words.of_field('factor', factor)}: {range_of(cells)}"
+                            for factor, cells in of_factors.items()])
     panel.xaxis.tick_top()
     panel.grid(False)
     legend_of_outcomes(figure, panel, {row["outcome"] for row in rows})
@@ -87,8 +90,9 @@ def stability_cells(results):
 stability_cells_facts = counts
 
 
-# The outcome of jiggling PBS on the limb, disturbed and then held still, as two settings change together, cell by cell. The maps show
-# which settings leave tets inverted, which prevent the body from coming to rest, and whether any lets the motion grow without bound.
+# The outcome of jiggling PBS on the limb, disturbed and then held still, as two settings change together, cell by cell.
+# The maps show which settings leave tets inverted, which prevent the body from coming to rest, and whether any lets the
+# motion grow without bound.
 
 maps = {"map_time_step_k_stretch.csv": "24 iterations", "map_iterations_twist.csv": "time step 10 ms"}
 columns = {"factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome", "steps"}
@@ -109,7 +113,8 @@ def draw_map(axes, rows, title):
     axes.set_xticks(range(len(across)), [f"{value:g}" for value in across])
     axes.set_yticks(range(len(up)), [f"{value:g}" for value in up])
     axes.set(xlim=(-0.5, len(across) - 0.5), ylim=(-0.5, len(up) - 0.5), title=f"limb, PBS with jiggle, {title}",
-             xlabel=named(rows[0]["factor"], rows[0]["unit"]), ylabel=named(rows[0]["second_factor"], rows[0]["second_unit"]))
+             xlabel=named(rows[0]["factor"], rows[0]["unit"]),
+             ylabel=named(rows[0]["second_factor"], rows[0]["second_unit"]))
     axes.grid(False)
 
 

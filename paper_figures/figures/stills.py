@@ -1,5 +1,5 @@
-"""Stills of recorded bodies, rendered by VTK: the paper's Figures 1, 3, 5, 8, 9 and 10, the jump as a clip, its tets at four moments, and
-folds cut open. A figure is a grid of stills, with facts from metrics.csv below each."""
+"""Stills of recorded bodies, rendered by VTK: the paper's Figures 1, 3, 5, 8, 9 and 10, the jump as a clip, its tets at
+four moments, and folds cut open. A figure is a grid of stills, with facts from metrics.csv below each."""
 from html import escape
 
 import matplotlib
@@ -19,8 +19,8 @@ volumes = ("volume_change_pct", "volume_abs_change_pct", "inverted_tets")
 
 
 class Facts:
-    """The numbers of a row of metrics.csv, for a format; {s} is the ending of the inverted tets, {section} the smallest section if it is on
-    record, and {mark} states a pose that was not reached."""
+    """The numbers of a row of metrics.csv, for a format; {s} is the ending of the inverted tets, {section} the smallest
+    section if it is on record, and {mark} states a pose that was not reached."""
 
     def __init__(self, row):
         self.row = row
@@ -28,7 +28,8 @@ class Facts:
     def __getitem__(self, name):
         if name == "section":
             return f"\nsection {self['min_section_pct']:.0f} %" if self.row.get("min_section_pct") else ""
-        words = {"s": "s" * (self.row["inverted_tets"] != "1"), "mark": "" if records.is_reached(self.row) else "\npose not reached"}
+        words = {"s": "s" * (self.row["inverted_tets"] != "1"),
+                 "mark": "" if records.is_reached(self.row) else "\npose not reached"}
         return words[name] if name in words else float(self.row[name])
 
 
@@ -37,7 +38,8 @@ def filled(row, words):
 
 
 def grid(stills, words, titles=(), names=(), **layout):
-    """The figure and the rows behind it. stills: for each row of panels its (row of metrics.csv, picture); words: the facts below."""
+    """The figure and the rows behind it. stills: for each row of panels its (row of metrics.csv, picture); words: the
+    facts below."""
     figure, axes = style.panels(len(stills), len(stills[0]), **layout)
     for panels, line in zip(axes, stills):
         for panel, (row, picture) in zip(panels, line):
@@ -48,7 +50,8 @@ def grid(stills, words, titles=(), names=(), **layout):
 
 def skins(frames, labels, views, stage):
     """A row of stills of the skin per deformer. views: frame -> camera."""
-    return [[(frames.row(label, frame), stage.shot([bodies.skin(frames.skin(label, frame))], view)) for frame, view in views.items()]
+    return [[(frames.row(label, frame), stage.shot([bodies.skin(frames.skin(label, frame))], view))
+             for frame, view in views.items()]
             for label in labels]
 
 
@@ -73,7 +76,8 @@ def fig_01_motion(results):
 
 
 def fig_03_two_layers(results):
-    """The rendered surface at rest, after linear blend skinning and after position based dynamics. The lower row shows the hips."""
+    """The rendered surface at rest, after linear blend skinning and after position based dynamics. The lower row shows
+    the hips."""
     frames = Frames(results, "human_jump")
     frame, = frames.frames_at(crouch_s)
     rows = [frames.row(label, frame) for label in ("lbs", "pbs")]
@@ -85,7 +89,8 @@ def fig_03_two_layers(results):
     for panels, centers, pixels, half_height_m, titles, below in (
             (axes[0], bodies_at, (640, 760), 0.88, ("rest", "step 1: LBS", "step 2: PBS, 24 iterations"), ("", "", "")),
             (axes[1], hips_at, (640, 380), 0.22, ("", "", ""), ("as given", *words))):
-        stage, files = rendering.Stage(*pixels), (frames.skin_at_rest(), *(frames.skin(label, frame) for label in ("lbs", "pbs")))
+        stage, files = rendering.Stage(*pixels), (frames.skin_at_rest(),
+                                                  *(frames.skin(label, frame) for label in ("lbs", "pbs")))
         for panel, file, center, title, text in zip(panels, files, centers, titles, below):
             style.show(panel, stage.shot([bodies.skin(file)], rendering.Camera(center, half_height_m)), title, text)
     return figure, style.columns_of(rows, *volumes)
@@ -96,11 +101,13 @@ def fig_05_weights(results):
     scenes, labels = [Frames(results, scene) for scene in ("limb_bend_rigid", "limb_bend")], ("lbs", "pbs")
     stage, view = rendering.Stage(1000, 640), rendering.Camera((-0.06, 0.08, 0), 0.29, (-0.25, 0.25, 1.0))
     shown = [(frames, frames.frame_at_angle(90)) for frames in scenes]
-    stills = [[(frames.row(label, frame), stage.shot([bodies.skin(frames.tets(label, frame))], view)) for frames, frame in shown]
+    stills = [[(frames.row(label, frame), stage.shot([bodies.skin(frames.tets(label, frame))], view))
+               for frames, frame in shown]
               for label in labels]
     figure, behind = grid(stills, "volume {volume_change_pct:+.1f} %\n{inverted_tets:.0f} inverted tets\n"
                                   "smallest section {min_section_pct:.0f} %",
-                          ("each vertex on one bone", "weights of Eq. 2"), [looks.short(label) for label in labels], height_in=1.75)
+                          ("each vertex on one bone", "weights of Eq. 2"), [looks.short(label) for label in labels],
+                          height_in=1.75)
     return figure, style.columns_of(behind, "angle_deg", *volumes, "min_section_pct")
 
 
@@ -113,11 +120,13 @@ artefact_poses = (("twist", 180, *twisted), ("twist", 170, *twisted), ("bend", 1
 
 def fig_08_artefacts(results):
     """The limb twisted by 180 and 170 degrees and bent by 110 degrees, with each tet coloured by its volume ratio."""
-    scenes, labels, stills = {motion: Frames(results, f"limb_{motion}") for motion in ("twist", "bend")}, ("lbs", "dqs", "pbs", "nh_p1"), []
+    scenes, labels, stills = {motion: Frames(results, f"limb_{motion}")
+                              for motion in ("twist", "bend")}, ("lbs", "dqs", "pbs", "nh_p1"), []
     for motion, angle_deg, view, height in artefact_poses:
         frames, stage = scenes[motion], rendering.Stage(900, int(900 * height))
         frame = frames.frame_at_angle(angle_deg)
-        stills.append([(frames.row(label, frame), stage.shot([rendering.tets(frames.tets(label, frame))], view)) for label in labels])
+        stills.append([(frames.row(label, frame), stage.shot([rendering.tets(frames.tets(label, frame))], view))
+                       for label in labels])
     figure, behind = grid(stills, artefacts, [looks.short(label) for label in labels],
                           [f"{motion} {angle_deg}\u00b0" for motion, angle_deg, *_ in artefact_poses], height_in=1.6,
                           height_ratios=[height for *_, height in artefact_poses])
@@ -126,8 +135,8 @@ def fig_08_artefacts(results):
 
 
 def fig_09_jiggle(results):
-    """The human walking under PBS with its jiggling zone, coloured by the distance from PBS with the same stiffness but without a zone. The
-    camera turns with the hips and shows the front and the back."""
+    """The human walking under PBS with its jiggling zone, coloured by the distance from PBS with the same stiffness but
+    without a zone. The camera turns with the hips and shows the front and the back."""
     frames, stage = Frames(results, "human_walk"), rendering.Stage(440, 680)
     compared, sides = ("pbs_jiggle", "pbs_no_zone"), {"front": 1, "back": -1}
     shown = frames.frames_at(0.0, 0.48, 1.44, 2.4)
@@ -145,32 +154,39 @@ def fig_09_jiggle(results):
         behind.append({"scene": "human_walk", "frame": frame, "time_s": time_s, **apart, "farthest_bone": bone})
     style.label(axes, times_of(frames, shown), sides)
     jiggling, still = (viewer_data.title_of(frames, label) for label in compared)
-    style.bar(figure, axes, distance_scale, distance_colors, f"distance of the skin under {jiggling}, from that under {still} [mm]", "max")
+    style.bar(figure, axes, distance_scale, distance_colors, f"distance of the skin under {jiggling}, from that under "
+                                                             f"{still} [mm]", "max")
     return figure, behind
 
 
 def fig_09_jiggle_facts(rows):
     """The largest distance between the two, frame by frame."""
-    words = [f"{float(row['largest_mm']):.0f} mm at the {style.bone_in_words(row['farthest_bone'])} ({float(row['time_s']):.2f} s)"
+    words = [f"{float(row['largest_mm']):.0f} mm at the {style.bone_in_words(row['farthest_bone'])} "
+             f"({float(row['time_s']):.2f} s)"
              for row in rows]
-    return {"farthest": ", ".join(words), "first": words[0], "largest": f"{max(float(row['largest_mm']) for row in rows):.0f}"}
+    return {"farthest": ", ".join(words), "first": words[0],
+            "largest": f"{max(float(row['largest_mm']) for row in rows):.0f}"}
 
 
 def fig_10_start_from_lbs(results):
-    """Poses with and without LBS as the initial guess. No package provides a kicking clip, so the poses are from a jump."""
+    """Poses with and without LBS as the initial guess. No package provides a kicking clip, so the poses are from a
+    jump."""
     frames, stage = Frames(results, "human_jump"), rendering.Stage(480, 640)
     shown = frames.frames_at(0.16, crouch_s, 0.72, 1.08)
     deformers = {"pbs": "from LBS in each frame", "pbs_increment": "moved by LBS's increment"}
-    views = {frame: rendering.Camera(rendering.middle_of(frames.skin("pbs", frame)), 0.87, (0.8, 0.12, 1.0)) for frame in shown}
+    views = {frame: rendering.Camera(rendering.middle_of(frames.skin("pbs", frame)), 0.87, (0.8, 0.12, 1.0))
+             for frame in shown}
     figure, axes = style.panels(3, len(shown), height_in=1.75)
     behind = []
     for panels, (frame, view) in zip(axes.T, views.items()):
         for panel, ((row, picture),) in zip(panels, skins(frames, deformers, {frame: view}, stage)):
-            style.show(panel, picture, below=filled(row, "{volume_change_pct:+.1f} % volume\nsection {min_section_pct:.0f} %"))
+            style.show(panel, picture,
+                       below=filled(row, "{volume_change_pct:+.1f} % volume\nsection {min_section_pct:.0f} %"))
             behind.append(row)
         away_mm = bodies.distances_mm(frames, frame, *deformers)
         actor = bodies.skin_by(frames.skin("pbs_increment", frame), away_mm, distance_scale, distance_colors)
-        style.show(panels[2], stage.shot([actor], view), below=f"largest {frames.apart(frame, *deformers)['largest_mm']:.0f} mm")
+        style.show(panels[2], stage.shot([actor], view),
+                   below=f"largest {frames.apart(frame, *deformers)['largest_mm']:.0f} mm")
     style.label(axes, times_of(frames, shown), (*deformers.values(), "distance between the two"))
     style.bar(figure, axes, distance_scale, distance_colors, "distance between the two skins [mm]", "max")
     return figure, style.columns_of(behind, *volumes, "min_section_pct", "stretch_rms")
@@ -181,9 +197,9 @@ def fig_10_start_from_lbs(results):
 in_clip, clip_direction = ("lbs", "pbs", "nh_p1"), (0.9, 0.15, 1.0)
 pixels, margin_px = (300, 440), 40
 in_words = "volume {volume_change_pct:+.1f} %, {inverted_tets:.0f} inverted"
-xmp = ('<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#"><rdf:Description '
-       'xmlns:dc="http://purl.org/dc/elements/1.1/"><dc:source>{source}</dc:source><dc:rights>{rights}</dc:rights></rdf:Description>'
-       "</rdf:RDF></x:xmpmeta>")
+xmp = ('<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#">'
+       '<rdf:Description xmlns:dc="http://purl.org/dc/elements/1.1/"><dc:source>{source}</dc:source>'
+       "<dc:rights>{rights}</dc:rights></rdf:Description></rdf:RDF></x:xmpmeta>")
 
 
 def page_of_clip(frames, frame, stage, font):
@@ -209,16 +225,19 @@ def draw_clip(file, frames, origin):
 
 
 def clip_jump_facts(rows):
-    """The largest number of inverted tets of each deformer over the clip, and whether the finite elements have some in every frame."""
+    """The largest number of inverted tets of each deformer over the clip, and whether the finite elements have some in
+    every frame."""
     inverted = {label: [int(row["inverted_tets"]) for row in rows if row["deformer"] == label] for label in in_clip}
     fem = inverted["nh_p1"]
-    return {label: max(found) for label, found in inverted.items()} | {"fem_frames": f"{sum(map(bool, fem))} of {len(fem)}"}
+    return {label: max(found) for label, found in inverted.items()} | {"fem_frames": f"{sum(map(bool, fem))} of "
+                                                                                     f"{len(fem)}"}
 
 
 def clip_jump(results):
     frames = Frames(results, "human_jump")
     still, = frames.frames_at(crouch_s)
-    view, stage = rendering.Camera(rendering.middle_of(frames.skin("nh_p1", still)), 0.78, clip_direction), rendering.Stage(700, 800)
+    view, stage = rendering.Camera(rendering.middle_of(frames.skin("nh_p1", still)), 0.78,
+                                   clip_direction), rendering.Stage(700, 800)
     stills = [line[0] for line in skins(frames, in_clip, {still: view}, stage)]
     figure, _ = grid([stills], in_words, [looks.short(label) for label in in_clip], height_in=1.9)
     behind = [frames.row(label, frame) for label in in_clip for frame in range(len(frames.times_s()))]
@@ -231,7 +250,8 @@ moment_words = "{inverted_tets:.0f} inverted tet{s}{section}{mark}"
 
 
 def frames_volume_ratio(results):
-    """The human jumping under LBS, PBS and FEM. One camera follows the LBS body and shows the tallest and widest body with a margin."""
+    """The human jumping under LBS, PBS and FEM. One camera follows the LBS body and shows the tallest and widest body
+    with a margin."""
     frames, stage = Frames(results, "human_jump"), rendering.Stage(*moment_pixels)
     labels, recorded = ("lbs", "pbs", frames.run.reference()), [int(row["frame"]) for row in frames.run.select("lbs")]
     written = [frame for frame in recorded if all(frames.is_written(label, frame) for label in labels)]
@@ -244,14 +264,16 @@ def frames_volume_ratio(results):
     stills = [[(frames.row(label, frame), stage.shot([rendering.tets(frames.tets(label, frame))],
                                                      rendering.Camera(sum(box) / 2, half_height_m)))
                for frame, box in shown.items()] for label in labels]
-    figure, behind = grid(stills, moment_words, times_of(frames, shown), [looks.short(label) for label in labels], height_in=1.75)
+    figure, behind = grid(stills, moment_words, times_of(frames, shown), [looks.short(label) for label in labels],
+                          height_in=1.75)
     style.ratio_bar(figure, figure.axes, rendering.ratio_scale, rendering.ratio_colors)
     return figure, style.columns_of(behind, "volume_change_pct", "inverted_tets", "min_section_pct")
 
 
 def frames_volume_ratio_facts(rows):
     """The range of the number of inverted tets over the stills, for each deformer."""
-    inverted = {row["deformer"]: [int(of["inverted_tets"]) for of in rows if of["deformer"] == row["deformer"]] for row in rows}
+    inverted = {row["deformer"]: [int(of["inverted_tets"]) for of in rows if of["deformer"] == row["deformer"]]
+                for row in rows}
     return dict(zip(("lbs", "pbs", "reference"), map(span, inverted.values())))
 
 
@@ -261,7 +283,8 @@ def contact(results):
     stage, limb, human = rendering.Stage(700, 600), Frames(results, "limb_bend"), Frames(results, "human_jump")
     crouch, = human.frames_at(crouch_s)
     folds = {"limb, 110\u00b0": (limb, limb.frame_at_angle(110), "upper", "forearm", 0.24),
-             "elbow": (human, crouch, "upper_arm.R", "forearm_upper.R", 0.09), "knee": (human, crouch, "thigh.L", "shin.L", 0.13)}
+             "elbow": (human, crouch, "upper_arm.R", "forearm_upper.R", 0.09),
+             "knee": (human, crouch, "thigh.L", "shin.L", 0.13)}
     stills = []
     for frames, frame, parent, child, half_height_m in folds.values():
         ends = {bone.name: bone for bone in frames.bones(frame)}
@@ -269,7 +292,8 @@ def contact(results):
         arms = [arm / numpy.linalg.norm(arm) for arm in (ends[parent].head - joint, ends[child].tail - joint)]
         normal, inward = numpy.cross(*arms), sum(arms) / numpy.linalg.norm(sum(arms))
         view = rendering.Camera(joint + 0.35 * half_height_m * inward, half_height_m, normal, tuple(inward))
-        stills.append([(frames.row(label, frame), stage.shot([bodies.section(frames.tets(label, frame), joint, normal)], view))
+        stills.append([(frames.row(label, frame), stage.shot([bodies.section(frames.tets(label, frame), joint, normal)],
+                                                             view))
                        for label in labels])
     figure, behind = grid(stills, "error {error_joint_pct:.1f} %", labels.values(), folds, height_in=1.25)
     return figure, style.columns_of(behind, "error_joint_pct", "inverted_tets")

@@ -1,6 +1,6 @@
-"""The finite element reference against theory: errors of a manufactured solution against the cell size, with the theoretical slopes; the
-stiffness in bending and torsion that remains as Poisson's ratio approaches 1/2; and the difference of every benchmark from its reference on
-the finest mesh."""
+"""The finite element reference against theory: errors of a manufactured solution against the cell size, with the
+theoretical slopes; the stiffness in bending and torsion that remains as Poisson's ratio approaches 1/2; and the
+difference of every benchmark from its reference on the finest mesh."""
 import records
 from drawing import style
 from words import case_words
@@ -21,12 +21,13 @@ def theory(ladder, order):
     """The rows with the errors that this order predicts, based on the error of the finest mesh."""
     finest_mesh = ladder[-1]
     return [{**row, "quantity": f"{row['quantity']}_by_theory", "expected_order": order,
-             "value": float(finest_mesh["value"]) * (float(row["h_m"]) / float(finest_mesh["h_m"])) ** order} for row in ladder]
+             "value": float(finest_mesh["value"]) * (float(row["h_m"]) / float(finest_mesh["h_m"])) ** order}
+            for row in ladder]
 
 
 def draw_convergence(axes, rows):
-    """One line per norm and element order; the theoretical slope is dotted from its finest to its coarsest mesh. Returns the dotted
-    rows."""
+    """One line per norm and element order; the theoretical slope is dotted from its finest to its coarsest mesh.
+    Returns the dotted rows."""
     dotted = []
     for element_order in (1, 2):
         elements = str(element_order), "displacement"
@@ -38,7 +39,8 @@ def draw_convergence(axes, rows):
             style.plot(axes, ladder, "h_m", "value", color=color, linestyle=line, marker=marker,
                        label=f"{case_words.elements(*elements)} in {norm}, theory $h^{order}$")
             dotted += theory(ladder, order)
-            style.plot(axes, dotted[-len(ladder):], "h_m", "value", color=style.ink, linestyle=(0, (1, 2)), linewidth=0.7)
+            style.plot(axes, dotted[-len(ladder):], "h_m", "value", color=style.ink, linestyle=(0, (1, 2)),
+                       linewidth=0.7)
     axes.set_xscale("log", base=2)
     axes.set(yscale="log", xlabel="cell size over the cube's side", ylabel="error over the solution's norm",
              title="manufactured solution; dotted: theory")
@@ -65,8 +67,8 @@ def draw_locking(axes, rows):
         axes.axhline(shown_of(kept[-1])["value_over_reference"], color=style.wine, linestyle=(0, (1, 1)),
                      label="constraints of PBS")
     axes.axhline(1.0, color=style.ink, linewidth=0.6)
-    axes.set(xscale="log", ylim=(0.0, 1.65), xlabel="1 \u2212 2 \u03bd, from compressible to incompressible", ylabel="value over theory",
-             title="locking: bending (full lines), torsion (dashed)")
+    axes.set(xscale="log", ylim=(0.0, 1.65), xlabel="1 \u2212 2 \u03bd, from compressible to incompressible",
+             ylabel="value over theory", title="locking: bending (full lines), torsion (dashed)")
     axes.invert_xaxis()
 
 
@@ -75,7 +77,8 @@ def finest(rows):
     chosen = {}
     for row in rows:
         key = (row["problem"], row["quantity"], row["poisson"], row["element_order"], row["formulation"])
-        if name_of(row) and row["difference_pct"] and (key not in chosen or int(row["dofs"]) > int(chosen[key]["dofs"])):
+        if name_of(row) and row["difference_pct"] and (key not in chosen
+                                                       or int(row["dofs"]) > int(chosen[key]["dofs"])):
             chosen[key] = row
     return list(chosen.values())
 
@@ -96,8 +99,8 @@ def draw_benchmarks(axes, rows):
     for elements, (color, marker) in looks.items():
         shown = solved_with(rows, elements)
         if shown:
-            axes.plot(records.numbers(shown, "difference_pct"), [places[label_of(row)] for row in shown], color=color, marker=marker,
-                      linestyle="none", label=case_words.elements(*elements), markersize=4.5)
+            axes.plot(records.numbers(shown, "difference_pct"), [places[label_of(row)] for row in shown], color=color,
+                      marker=marker, linestyle="none", label=case_words.elements(*elements), markersize=4.5)
     axes.set_xscale("symlog", linthresh=2.0, linscale=1.5)
     ticks = [-50, -10, -2, -1, 0, 1, 2, 10, 50]
     axes.set_xticks(ticks, [f"{tick:+g}".replace("-", "\u2212") if tick else "0" for tick in ticks])
@@ -107,23 +110,26 @@ def draw_benchmarks(axes, rows):
 
 
 def verification_facts(rows):
-    """How much of a beam's bending quadratic and linear elements keep as it becomes incompressible, and their largest benchmark difference
-    [%]."""
+    """How much of a beam's bending quadratic and linear elements keep as it becomes incompressible, and their largest
+    benchmark difference [%]."""
     def of(order, rows):
         return [row for row in rows if row["element_order"] == str(order)]
 
     bent = [row for row in rows if (row["problem"], row["quantity"]) == ("locking", "tip_deflection")]
     judged = [row for row in rows if name_of(row) and row["difference_pct"]]
-    kept = {f"p{order}_bending": span([100 * float(row["value_over_reference"]) for row in of(order, bent)]) for order in (1, 2)}
-    off = {f"p{order}_off": figure(max((abs(float(row["difference_pct"])) for row in of(order, judged)), default=None)) for order in (1, 2)}
+    kept = {f"p{order}_bending": span([100 * float(row["value_over_reference"]) for row in of(order, bent)])
+            for order in (1, 2)}
+    off = {f"p{order}_off": figure(max((abs(float(row["difference_pct"])) for row in of(order, judged)), default=None))
+           for order in (1, 2)}
     return kept | off
 
 
 def verification(results):
     rows = records.table(results / "verification" / "verification.csv",
-                         {"problem", "quantity", "element_order", "formulation", "poisson", "h_m", "dofs", "value", "reference",
-                          "difference_pct"})
-    manufactured, locking = ([row for row in rows if row["problem"] == name] for name in ("manufactured_solution", "locking"))
+                         {"problem", "quantity", "element_order", "formulation", "poisson", "h_m", "dofs", "value",
+                          "reference", "difference_pct"})
+    manufactured, locking = ([row for row in rows if row["problem"] == name]
+                             for name in ("manufactured_solution", "locking"))
     shown = finest(rows)
     records.need(shown, "verification.csv: no benchmark")
     drawing, (above, below) = style.stacked((2, 2.2), (1, 4.4))

@@ -1,5 +1,6 @@
-"""The figures of bodies' shape. The volume change over the angle of a sweep, over the clip, against the iterations, and by region of the
-body; signed (the paper's measure) and absolute (in which gains do not hide losses). The area of cross-sections along a limb."""
+"""The figures of bodies' shape. The volume change over the angle of a sweep, over the clip, against the iterations, and
+by region of the body; signed (the paper's measure) and absolute (in which gains do not hide losses). The area of
+cross-sections along a limb."""
 import records
 from drawing import style
 from words import looks
@@ -9,7 +10,8 @@ measures = {"volume_change_pct": "signed volume\nchange [%]", "volume_abs_change
 
 
 def flesh_of(run):
-    """The run's reference, or neo-Hookean finite elements that the run has without one; neither in a run of skinning alone."""
+    """The run's reference, or neo-Hookean finite elements that the run has without one; neither in a run of skinning
+    alone."""
     deformers = {row["deformer"] for row in run.rows}
     return [run.reference(needed=False) or "nh_p1"] if run.reference(needed=False) or "nh_p1" in deformers else []
 
@@ -41,7 +43,8 @@ def volume_over_angle(results):
     for panels, motion in zip(axes.T, ("twist", "bend")):
         behind += draw_deformers(panels, records.Run(results / "volume" / f"limb_{motion}"), "angle_deg")
         panels[1].xaxis.set_major_locator(style.ticker.MultipleLocator(30))
-    style.label(axes, ("limb, twist", "limb, bend"), measures.values(), ("twist angle [degrees]", "bend angle [degrees]"))
+    style.label(axes, ("limb, twist", "limb, bend"), measures.values(),
+                ("twist angle [degrees]", "bend angle [degrees]"))
     style.key_below(drawing)
     return drawing, style.columns_of(behind, "angle_deg", *measures)
 
@@ -49,7 +52,8 @@ def volume_over_angle(results):
 def volume_over_angle_facts(rows):
     """The largest change of the volume under PBS in each motion [%]."""
     changes = {motion: [abs(float(row["volume_change_pct"])) for row in rows
-                        if (row["scene"], row["deformer"]) == (f"limb_{motion}", "pbs")] for motion in ("twist", "bend")}
+                        if (row["scene"], row["deformer"]) == (f"limb_{motion}", "pbs")]
+               for motion in ("twist", "bend")}
     return {motion: figure(max(of, default=None)) for motion, of in changes.items()}
 
 
@@ -70,11 +74,11 @@ def volume_over_clip(results):
     return drawing, style.columns_of(behind, *measures)
 
 
-# Volume change of PBS against the number of iterations: for the human the median over the clip's frames and the band that contains 8
-# frames in 10, for the limb single poses.
+# Volume change of PBS against the number of iterations: for the human the median over the clip's frames and the band
+# that contains 8 frames in 10, for the limb single poses.
 
-poses = [("limb_twist", 90, "limb, twist 90\u00b0"), ("limb_twist", 180, "limb, twist 180\u00b0"), ("limb_bend", 90, "limb, bend 90\u00b0"),
-         ("limb_bend", 150, "limb, bend 150\u00b0")]
+poses = [("limb_twist", 90, "limb, twist 90\u00b0"), ("limb_twist", 180, "limb, twist 180\u00b0"),
+         ("limb_bend", 90, "limb, bend 90\u00b0"), ("limb_bend", 150, "limb, bend 150\u00b0")]
 
 
 def draw_human(axes, run, measure, color):
@@ -84,12 +88,14 @@ def draw_human(axes, run, measure, color):
     low, median, high = (records.numbers(rows, f"{quantity}_{share}_pct") for share in ("p10", "median", "p90"))
     axes.fill_between(iterations, low, high, color=color, alpha=0.25, linewidth=0)
     axes.plot(iterations, median, color=color, linewidth=1.8, label="human, median;\n10\u201390 % of frames")
-    return [{"scene": run.name, "pose": "all frames", "measure": measure, "iterations": of[0], "median": of[1], "q10": of[2], "q90": of[3]}
+    return [{"scene": run.name, "pose": "all frames", "measure": measure, "iterations": of[0], "median": of[1],
+             "q10": of[2], "q90": of[3]}
             for of in zip(iterations, median, low, high)]
 
 
 def volume_over_iterations_facts(rows):
-    """The change that remains after 24 and after the most iterations: the human's median, and the limb bent by 90 degrees [%]."""
+    """The change that remains after 24 and after the most iterations: the human's median, and the limb bent by 90
+    degrees [%]."""
     def left(measure, scene, pose):
         found = {int(row["iterations"]): float(row["median"]) for row in rows
                  if (row["measure"], row["scene"], row["pose"]) == (measure, scene, pose)}
@@ -111,10 +117,11 @@ def volume_over_iterations(results):
         behind += draw_human(panel, human, measure, looks.of("pbs").color)
         for (scene, angle_deg, name), place in zip(poses, (0, 4, 2, 6)):
             (color, marker), counts = style.sequence[place], limbs[scene].pbs_iterations()
-            values = records.numbers([records.at_angle(limbs[scene].select("pbs", count), angle_deg) for count in counts], measure)
+            values = records.numbers([records.at_angle(limbs[scene].select("pbs", count), angle_deg)
+                                      for count in counts], measure)
             panel.plot(counts, values, color=color, marker=marker, linestyle=(0, (4, 1.5)), linewidth=0.9, label=name)
-            behind += [{"scene": scene, "pose": f"{angle_deg} degrees", "measure": measure, "iterations": count, "median": value, "q10": "",
-                        "q90": ""} for count, value in zip(counts, values)]
+            behind += [{"scene": scene, "pose": f"{angle_deg} degrees", "measure": measure, "iterations": count,
+                        "median": value, "q10": "", "q90": ""} for count, value in zip(counts, values)]
         finish_measure(panel, measure)
         panel.set_xscale("log", base=2)
         panel.set_xticks(human.pbs_iterations(), [str(iterations) for iterations in human.pbs_iterations()])
@@ -123,8 +130,9 @@ def volume_over_iterations(results):
     return drawing, behind
 
 
-# The distribution of the human's volume change over the clip: the change of each bone's and each joint's region, in per cent of the whole
-# body, mean over frames. LBS loses volume at shoulders, spine and hips; what PBS still loses lies along the spine.
+# The distribution of the human's volume change over the clip: the change of each bone's and each joint's region, in per
+# cent of the whole body, mean over frames. LBS loses volume at shoulders, spine and hips; what PBS still loses lies
+# along the spine.
 
 of_regions = ("lbs", "dqs", "pbs", "nh_p1")
 region_columns = {"run", "deformer", "kind", "bone", "second_bone", "rest_share_pct", "change_pct", "own_change_pct"}
@@ -163,7 +171,8 @@ def draw_kind(axes, rows):
 
 def volume_by_region(results):
     file = results / "volume" / "regions.csv"
-    rows = [row for row in records.table(file, region_columns) if row["run"] == run_shown and row["deformer"] in of_regions]
+    rows = [row for row in records.table(file, region_columns) if row["run"] == run_shown
+            and row["deformer"] in of_regions]
     records.need(rows, f"{file}: no rows of {run_shown}")
     drawing, axes = style.panels(2, 1, height_in=2.3)
     behind = []
@@ -174,20 +183,23 @@ def volume_by_region(results):
     return drawing, behind
 
 
-# The area of the cross-section relative to rest, along the limb through the joint: LBS collapses at a twisted joint (the candy wrapper),
-# and DQS swells at a bent one (the bulge). The curves show where PBS follows the finite elements, and where it does not.
+# The area of the cross-section relative to rest, along the limb through the joint: LBS collapses at a twisted joint
+# (the candy wrapper), and DQS swells at a bent one (the bulge). The curves show where PBS follows the finite elements,
+# and where it does not.
 
-cases = [("limb_twist", "twist_90_deg", "limb, twist 90\u00b0"), ("limb_twist", "twist_180_deg", "limb, twist 180\u00b0"),
-         ("limb_bend", "bend_60_deg", "limb, bend 60\u00b0"), ("limb_bend", "bend_90_deg", "limb, bend 90\u00b0"),
-         ("human_twist_forearm_upper.L", "twist_90_deg", "human, elbow twisted 90\u00b0"),
+cases = [("limb_twist", "twist_90_deg", "limb, twist 90\u00b0"),
+         ("limb_twist", "twist_180_deg", "limb, twist 180\u00b0"), ("limb_bend", "bend_60_deg", "limb, bend 60\u00b0"),
+         ("limb_bend", "bend_90_deg", "limb, bend 90\u00b0"), ("human_twist_forearm_upper.L", "twist_90_deg",
+                                                               "human, elbow twisted 90\u00b0"),
          ("human_bend_shin.L", "bend_90_deg", "human, knee bent 90\u00b0")]
 section_columns = {"body", "vertices", "pose", "joint", "deformer", "order", "precision", "offset_m", "area_over_rest"}
 
 
 def profiles(rows, pose):
-    """The sections along the limb for each deformer, on the mesh that all deformers share; of the finite elements, those of the best
-    reference."""
-    rows = [row for row in rows if row["pose"] == pose and (row["order"], row["precision"]) in (("", ""), ("ordered", "f32"))]
+    """The sections along the limb for each deformer, on the mesh that all deformers share; of the finite elements,
+    those of the best reference."""
+    rows = [row for row in rows if row["pose"] == pose
+            and (row["order"], row["precision"]) in (("", ""), ("ordered", "f32"))]
     meshes = [row["vertices"] for row in rows if row["deformer"] == "delta_mush"] or [row["vertices"] for row in rows]
     rows = [row for row in rows if row["vertices"] == meshes[0]] if meshes else []
     best = [name for name in ("nh_p2", "nh_p1") if any(row["deformer"] == name for row in rows)][:1]
@@ -204,8 +216,10 @@ def section_profiles(results):
         found = profiles(records.table(file, section_columns), pose)
         records.need(found, f"{file}: no sections of {pose}")
         for deformer, rows in found.items():
-            shown = [{"case": case, "pose": pose, "deformer": deformer, "offset_cm": 100 * offset_m, "area_over_rest_pct": 100 * area}
-                     for offset_m, area in zip(records.numbers(rows, "offset_m"), records.numbers(rows, "area_over_rest"))]
+            shown = [{"case": case, "pose": pose, "deformer": deformer, "offset_cm": 100 * offset_m,
+                      "area_over_rest_pct": 100 * area}
+                     for offset_m, area in zip(records.numbers(rows, "offset_m"),
+                                               records.numbers(rows, "area_over_rest"))]
             style.draw(panel, deformer, shown, "offset_cm", "area_over_rest_pct",
                        label="FEM" if deformer.startswith("nh") else looks.short(deformer))
             behind += shown

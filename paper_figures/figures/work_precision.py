@@ -1,5 +1,5 @@
-"""Error against run time of each method, and the share of the poses that it solves within a time per frame. Methods that take flesh are
-given that of each reference (the table `known`)."""
+"""Error against run time of each method, and the share of the poses that it solves within a time per frame. Methods
+that take flesh are given that of each reference (the table `known`)."""
 import textwrap
 
 import records
@@ -31,8 +31,8 @@ def draw_curve(axes, rows, takes):
     """A dotted line leads from the last point to the right end, since more time changes nothing. Returns it."""
     look = look_of(rows[0]["method"], takes)
     style.plot(axes, rows, "ms", "share_pct", **look)
-    axes.vlines(records.numbers(rows, "ms"), *(records.numbers(rows, f"share_{end}_pct") for end in ("low", "high")), color=look["color"],
-                linewidth=0.6, alpha=0.5)
+    axes.vlines(records.numbers(rows, "ms"), *(records.numbers(rows, f"share_{end}_pct") for end in ("low", "high")),
+                color=look["color"], linewidth=0.6, alpha=0.5)
     return look["color"], float(rows[-1]["ms"]), float(rows[-1]["share_pct"])
 
 
@@ -41,7 +41,8 @@ def curve_rows(rows, takes):
     shown = {}
     for row in rows:
         if row["ms"] != "nan" and row["share"] != "nan":
-            of_row = style.taken([row], ("method", "setting", "ms"), shown="curve", takes=takes.get(row["method"], ""))[0]
+            of_row = style.taken([row], ("method", "setting", "ms"), shown="curve",
+                                 takes=takes.get(row["method"], ""))[0]
             shown.setdefault((row["method"], row["setting"]), of_row | {
                 f"share{end}_pct": 100.0 * float(row[f"share{end}"]) for end in ("", "_low", "_high")})
     return sorted(shown.values(), key=lambda row: float(row["ms"]))
@@ -58,7 +59,8 @@ def error_against_time(results):
     axes.set(xscale="log", xlabel="time per frame [ms]", ylabel="error [% of LBS's error]")
     last_ms = 1.15 * max(*compared.times_ms, *(ms for _, ms, _ in ends.values()))
     axes.set_xlim(right=last_ms)
-    labels = {axes.plot([ms, last_ms], [share, share], color=color, linewidth=0.5, linestyle=(0, (1, 2)), gid="guide")[0]:
+    labels = {axes.plot([ms, last_ms], [share, share], color=color, linewidth=0.5, linestyle=(0, (1, 2)),
+                        gid="guide")[0]:
               compared_methods.name(method) for method, (color, ms, share) in ends.items()}
     for ms in compared.times_ms:
         axes.axvline(ms, color=style.grey, linewidth=0.7, linestyle=(0, (2, 2)), zorder=0)
@@ -82,7 +84,8 @@ def error_against_time_facts(rows):
         return [row["text"] for row in rows if row["shown"] == shown]
 
     clocks = "".join(f" {row['method']}: {row['text']}." for row in rows if row["shown"] == "clock")
-    of_a_played_frame = next((text for text in texts("answer") if text.startswith(f"Within {compared_methods.played_ms:g} ms")), "")
+    of_a_played_frame = next((text for text in texts("answer")
+                              if text.startswith(f"Within {compared_methods.played_ms:g} ms")), "")
     title = of_a_played_frame.partition(" (")[0].replace(" %", " % of LBS's error", 1)
     return {"title": title, "answer": " ".join(texts("answer")), "poses": " ".join(texts("poses")), "clocks": clocks}
 

@@ -16,15 +16,17 @@ listed = tomllib.loads(pathlib.Path(__file__).with_name("columns.toml").read_tex
 
 
 def composers():
-    """For each study that has a page, in order, the function of the study's folder that composes it: those of short.py, and `page` of the
-    module of the study's name."""
-    modules = {module.name: importlib.import_module(f"pages.{module.name}") for module in pkgutil.iter_modules(__path__)}
-    return dict(sorted((modules.pop("short").composers | {study: module.page for study, module in modules.items()}).items()))
+    """For each study that has a page, in order, the function of the study's folder that composes it: those of short.py,
+    and `page` of the module of the study's name."""
+    modules = {module.name: importlib.import_module(f"pages.{module.name}")
+               for module in pkgutil.iter_modules(__path__)}
+    return dict(sorted((modules.pop("short").composers | {study: module.page
+                                                          for study, module in modules.items()}).items()))
 
 
 def write(results):
-    """Returns the pages that were written and the exit status. A study without records has no page. Missing tables of a study are named on
-    stderr; so are damaged records and pages that cannot be written, whose status is 2."""
+    """Returns the pages that were written and the exit status. A study without records has no page. Missing tables of a
+    study are named on stderr; so are damaged records and pages that cannot be written, whose status is 2."""
     try:
         opened = kept.opened(results)
     except records.RecordsMissing as error:
@@ -47,8 +49,8 @@ def write(results):
 
 
 def table(rows, columns, **functions):
-    """A Markdown table. columns: a table of columns.toml, whose functions are given by their names, or the like: {heading: its text, or a
-    function of the row}."""
+    """A Markdown table. columns: a table of columns.toml, whose functions are given by their names, or the like:
+    {heading: its text, or a function of the row}."""
     def cell(row, column, digits):
         if callable(column):
             return column(row)

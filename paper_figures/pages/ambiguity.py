@@ -1,4 +1,5 @@
-"""How much each other reading of the paper changes the values of claims, by body, which verdicts flip, and the volume of each scene."""
+"""How much each other reading of the paper changes the values of claims, by body, which verdicts flip, and the volume
+of each scene."""
 import math
 
 import pages
@@ -49,7 +50,8 @@ def of_claim(claim, rows):
     if untouched := named("not_touched", lambda row: row["reason"]):
         text += "\n  - not touched where " + "; ".join(untouched)
     for reason in named("no_value", lambda row: row["reason"]):
-        quantities = dict.fromkeys(row["quantity"] for row in rows if (row["verdict_flips"], row["reason"]) == ("no_value", reason))
+        quantities = dict.fromkeys(row["quantity"] for row in rows
+                                   if (row["verdict_flips"], row["reason"]) == ("no_value", reason))
         text += f"\n  - no value: {reason}: {', '.join(quantities)}"
     return text + "\n"
 
@@ -65,19 +67,23 @@ def of_volume(rows):
 
     return pages.table(values.items(), {
         "scene": lambda of: of[0][0], "place": lambda of: places.get(of[0][1], of[0][1]), "B": lambda of: of[0][2],
-        "signed A -> B [%]": change("mean_volume_change_pct"), "absolute A -> B [%]": change("mean_volume_abs_change_pct"),
+        "signed A -> B [%]": change("mean_volume_change_pct"),
+        "absolute A -> B [%]": change("mean_volume_abs_change_pct"),
         "within 0.5 % A -> B": change("share_of_frames_within_printed"),
         "distance of B from A [mm]": lambda of: f"{1e3 * float(of[1]['distance_of_b_from_a_rms_m']['b']):.3f}",
         "jiggle A -> B [mm]": change("distance_of_zone_by_jiggle_rms_m", 1e3)})
 
 
 def page(folder):
-    rows = pages.of_runs(folder, "ambiguity.csv", {"body", "place", "reading_b", "claim", "quantity", "a", "b", "change", "b_over_a",
-                                                   "verdict_flips", "reason"})
+    rows = pages.of_runs(folder, "ambiguity.csv", {"body", "place", "reading_b", "claim", "quantity", "a", "b",
+                                                   "change", "b_over_a", "verdict_flips", "reason"})
     claims = sorted({row["claim"] for row in rows})
-    text = ("# How other readings of the paper change the values of claims\n\nA cell is B over A of the value whose verdict flips, or else "
-            "of the one that changes most. `!`: its verdict flips; `.`: the reading cannot touch the claim; `-`: no value.\n")
+    text = ("# How other readings of the paper change the values of claims\n\nA cell is B over A of the value whose "
+            "verdict flips, or else of the one that changes most. `!`: its verdict flips; `.`: the reading cannot "
+            "touch the claim; `-`: no value.\n")
     for body in dict.fromkeys(row["body"] for row in rows):
         text += f"\n## {body}\n\n" + of_body([row for row in rows if row["body"] == body], claims)
-    text += "\n## Verdicts that flip\n\n" + "".join(of_claim(claim, [row for row in rows if row["claim"] == claim]) for claim in claims)
-    return text + "\n## Volume\n\n" + of_volume(pages.of_runs(folder, "figures.csv", {"scene", "place", "reading_b", "quantity", "a", "b"}))
+    text += "\n## Verdicts that flip\n\n" + "".join(of_claim(claim, [row for row in rows if row["claim"] == claim])
+                                                    for claim in claims)
+    return text + "\n## Volume\n\n" + of_volume(pages.of_runs(folder, "figures.csv",
+                                                              {"scene", "place", "reading_b", "quantity", "a", "b"}))

@@ -1,4 +1,5 @@
-"""Pages that are a few tables: a function of the study's folder returns their sections, each a heading, which may be empty, and a text."""
+"""Pages that are a few tables: a function of the study's folder returns their sections, each a heading, which may be
+empty, and a text."""
 import collections
 import math
 
@@ -15,7 +16,8 @@ def of_sections(rows):
         sections.setdefault((row["claim"], row["outcome"]), []).append(of)
         if row["remark"]:
             remarks += f"- {row['claim']}: {of}, {row['outcome']}: {row['remark']}\n"
-    text = "".join(f"- {claim}: {len(of)} sections {outcome}" + ("\n" if outcome == "measured" else f": {'; '.join(of)}\n")
+    text = "".join(f"- {claim}: {len(of)} sections {outcome}" + ("\n" if outcome == "measured"
+                                                                 else f": {'; '.join(of)}\n")
                    for (claim, outcome), of in sorted(sections.items()))
     return text + ("\n## Remarks\n\n" + remarks if remarks else "")
 
@@ -26,7 +28,8 @@ def artefacts(folder):
     crossings = [row | {"case": file.parent.name} for file in pages.files(folder, "intersections.csv")
                  for row in records.table(file, columns) if row["pairs"] != row["pairs_at_rest"]]
     return [("Sections", of_sections(sections)),
-            ("Where a pose changes the number of pairs of triangles that intersect", pages.table(crossings, "intersections"))]
+            ("Where a pose changes the number of pairs of triangles that intersect",
+             pages.table(crossings, "intersections"))]
 
 
 def audit(folder):
@@ -53,10 +56,11 @@ def convergence(folder):
 
 def of_jolts(folder):
     zone = records.table(folder / "zone.csv", {"share_of_vertices", "share_on_skin", "pieces", "bone", "share_of_zone"})
-    text = (f"The zone is {100 * float(zone[0]['share_of_vertices']):.0f} % of the vertices, {100 * float(zone[0]['share_on_skin']):.0f} % "
-            f"of it skin, in {zone[0]['pieces']} pieces: "
+    text = (f"The zone is {100 * float(zone[0]['share_of_vertices']):.0f} % of the vertices, "
+            f"{100 * float(zone[0]['share_on_skin']):.0f} % of it skin, in {zone[0]['pieces']} pieces: "
             + ", ".join(f"{row['bone']} {100 * float(row['share_of_zone']):.0f} %" for row in zone[:5]) + ".\n\n")
-    return text + pages.table(records.table(folder / "responses.csv", {"deformer", "outcome", "frequency_hz"}), "responses")
+    return text + pages.table(records.table(folder / "responses.csv", {"deformer", "outcome", "frequency_hz"}),
+                              "responses")
 
 
 def jiggle(folder):
@@ -67,7 +71,8 @@ def jiggle(folder):
 
 
 def counts(folder, name, keys):
-    """A line for each group of rows with the same keys, in the order of their first rows: how many have each outcome."""
+    """A line for each group of rows with the same keys, in the order of their first rows: how many have each
+    outcome."""
     lines = {}
     for row in pages.of_runs(folder, f"{name}.csv", {*keys, "outcome"}):
         group = {key: row[key] for key in keys}
@@ -80,20 +85,25 @@ def stability(folder):
     cells = ("Cells", counts(folder, "cells", ("body", "model", "factor", "second_factor")))
     if not pages.filled_files(folder, "starts.csv"):  # those are of the full form
         return [cells]
-    return [cells, ("Broken initial shapes", counts(folder, "starts", ("body", "model", "pose", "setting", "setting_value")))]
+    return [cells,
+            ("Broken initial shapes", counts(folder, "starts", ("body", "model", "pose", "setting", "setting_value")))]
 
 
 def temporal(folder):
-    """Each deformer and initial guess along each clip, and in how many frames the frame before is a worse guess than the method's own."""
+    """Each deformer and initial guess along each clip, and in how many frames the frame before is a worse guess than
+    the method's own."""
     def guess(row):
         worse = row["worse_than_cold_frames"]
-        return f"the frame before, worse in {worse} of {int(row['compared']) - 1}" if row["start"] == "frame_before" else "the method's own"
-    return [(file.parent.name, pages.table(records.table(file, {"deformer", "start", "compared", "worse_than_cold_frames"}), "temporal",
-                                           guess=guess)) for file in pages.files(folder, "summary.csv")]
+        return (f"the frame before, worse in {worse} of {int(row['compared']) - 1}" if row["start"] == "frame_before"
+                else "the method's own")
+    return [(file.parent.name,
+             pages.table(records.table(file, {"deformer", "start", "compared", "worse_than_cold_frames"}), "temporal",
+                         guess=guess)) for file in pages.files(folder, "summary.csv")]
 
 
-titles = {artefacts: "The artefacts of blending", audit: "The paper against itself", convergence: "Convergence from each initial guess",
-          jiggle: "Jiggle", stability: "Stability", temporal: "Along a clip"}
+titles = {artefacts: "The artefacts of blending", audit: "The paper against itself",
+          convergence: "Convergence from each initial guess", jiggle: "Jiggle", stability: "Stability",
+          temporal: "Along a clip"}
 
 
 def composer(sections):

@@ -1,5 +1,5 @@
-"""Writes the generated part of each study's README and of each claim's page, from tables and records: the purpose, figures and cost of a
-study; the verdict of a claim with its controls and comparisons. Nobody edits it by hand.
+"""Writes the generated part of each study's README and of each claim's page, from tables and records: the purpose,
+figures and cost of a study; the verdict of a claim with its controls and comparisons. Nobody edits it by hand.
 """
 import tomllib
 
@@ -69,15 +69,19 @@ def not_kept(study, results):
 
 
 def markdown_table(head, rows):
-    return ["", tables.line(*head), "|---" * len(head) + "|", *(tables.line(*map(tables.in_markdown, row)) for row in rows)] if rows else []
+    return ["", tables.line(*head), "|---" * len(head) + "|",
+            *(tables.line(*map(tables.in_markdown, row)) for row in rows)] if rows else []
 
 
 def claim_lines(claim):
-    """Verdict and primary number of a claim; its controls, comparisons and readings, which are no part of the verdict."""
-    lines = [f"**{claim['id']}: {sentences.both_verdicts(claim)}.** {claim['statement']}", "", f"{sentences.in_line(claim)}."]
+    """Verdict and primary number of a claim; its controls, comparisons and readings, which are no part of the
+    verdict."""
+    lines = [f"**{claim['id']}: {sentences.both_verdicts(claim)}.** {claim['statement']}", "",
+             f"{sentences.in_line(claim)}."]
     basis = sentences.basis(claim)
     rows_on_meshes = meshes()
-    depends = sentences.without_a_body(claim) + sentences.on_other_tets(claim, rows_on_meshes) + sentences.threshold_ranges(claim)
+    depends = (sentences.without_a_body(claim) + sentences.on_other_tets(claim, rows_on_meshes)
+               + sentences.threshold_ranges(claim))
     told = [*([basis] if basis else []), *(f"{text}." for text in depends + sentences.on_held_out_cases(claim))]
     lines = [tables.in_markdown(text) for text in lines + [line for text in told for line in ("", text)]]
     lines += markdown_table(sentences.control_head, sentences.control_rows(claim))
@@ -94,7 +98,8 @@ def claim_page_lines(claims):
     """A page serves a claim of the paper, which may be two here, such as C02a and C02b."""
     differing = [[f"**{claim['id']} has two verdicts: {sentences.both_verdicts(claim)}.**"] for claim in claims
                  if sentences.held_out(claim) and sentences.held_out(claim)["verdict"] != claim["verdict"]]
-    parts = [*differing, [f"Study: [{claims[0]['study']}](../../studies/{claims[0]['study']}/README.md)."], *map(claim_lines, claims)]
+    parts = [*differing, [f"Study: [{claims[0]['study']}](../../studies/{claims[0]['study']}/README.md)."],
+             *map(claim_lines, claims)]
     return [line for part in parts for line in ["", *part]][1:]
 
 
@@ -102,7 +107,8 @@ def pages(results):
     """Each page with its generated lines."""
     found = {}
     for study in study_names():
-        parts = served_claims(study), drawn_figures(study), summaries(study, results), cost(study, results), not_kept(study, results)
+        parts = served_claims(study), drawn_figures(study), summaries(study, results), cost(study, results), not_kept(
+            study, results)
         found[studies / study / "README.md"] = [line for part in parts if part for line in [*part, ""]][:-1]
     served = {}
     for claim in tables.claims_of(results):

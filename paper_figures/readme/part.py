@@ -1,4 +1,5 @@
-"""Writes the parts of README.md and of other pages that scripts compose from records, each between two markers of its own.
+"""Writes the parts of README.md and of other pages that scripts compose from records, each between two markers of its
+own.
 
     status = part.main("claims", pages_of, results)  # pages_of(results): the lines between the markers, for each page
 """
@@ -17,7 +18,8 @@ def markers(name):
 
 
 def cut(readme, name):
-    """The text of the page up to and including the first marker, the part between the two, and the rest from the second marker."""
+    """The text of the page up to and including the first marker, the part between the two, and the rest from the second
+    marker."""
     try:
         text = readme.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -39,8 +41,8 @@ def write(readme, name, lines):
 
 
 def main(name, pages_of, results):
-    """Writes the part NAME of each page, pages_of(results): {page: lines}. Returns the exit status: 2 if the records or a page are not as
-    expected; that page stays as it was."""
+    """Writes the part NAME of each page, pages_of(results): {page: lines}. Returns the exit status: 2 if the records or
+    a page are not as expected; that page stays as it was."""
     try:
         for page, lines in pages_of(results).items():
             write(page, name, lines)

@@ -1,10 +1,13 @@
-"""Draws the first picture of the README: the jumping human in its crouch under LBS and DQS, each with the weights of Eq. 2 and with smooth
-weights, under PBS and under the finite element reference, coloured by the distance of the skin from the reference. From two runs:
+"""Draws the first picture of the README: the jumping human in its crouch under LBS and DQS, each with the weights of
+Eq. 2 and with smooth weights, under PBS and under the finite element reference, coloured by the distance of the skin
+from the reference. From two runs:
 
     pbskin run human_01_01 -o PAPER --set motion.rate_hz=25 --set motion.duration_s=1.68 --set 'output.frames=[41]' \\
         --set 'output.frame_names=["crouch"]' --set 'deformers.use=["lbs","dqs","pbs","nh_p1"]'
-    pbskin run human_01_01 -o SMOOTH (the same) --set skinning.weights=diffused --set 'deformers.use=["lbs","dqs","nh_p1"]'
-    xvfb-run -a python3 paper_figures/readme/same_pose.py PAPER SMOOTH     # writes same_pose.png and same_pose.csv, the numbers in it
+    pbskin run human_01_01 -o SMOOTH (the same) --set skinning.weights=diffused \\
+        --set 'deformers.use=["lbs","dqs","nh_p1"]'
+    # writes same_pose.png and same_pose.csv, the numbers in it
+    xvfb-run -a python3 paper_figures/readme/same_pose.py PAPER SMOOTH
 
 The kept records have no frames. The rows of the first run must agree with the records.
 """
@@ -31,8 +34,9 @@ compared = ("volume_change_pct", "inverted_tets", "error_joint_pct")
 stated = (*compared, "skin_rms_mm")
 time_s, frame, reference = 1.64, 41, "nh_p1"
 # Weights, deformer and title of each panel.
-panels = (("Eq. 2", "lbs", "LBS\nweights of Eq. 2"), ("smooth", "lbs", "LBS\nsmooth weights"), ("Eq. 2", "dqs", "DQS\nweights of Eq. 2"),
-          ("smooth", "dqs", "DQS\nsmooth weights"), ("Eq. 2", "pbs", "PBS\n24 iterations"), ("Eq. 2", reference, "FEM\nthe reference"))
+panels = (("Eq. 2", "lbs", "LBS\nweights of Eq. 2"), ("smooth", "lbs", "LBS\nsmooth weights"),
+          ("Eq. 2", "dqs", "DQS\nweights of Eq. 2"), ("smooth", "dqs", "DQS\nsmooth weights"),
+          ("Eq. 2", "pbs", "PBS\n24 iterations"), ("Eq. 2", reference, "FEM\nthe reference"))
 size_m, width_px = 1.7, 1260  # the body's largest extent at rest, to which distances refer, as in skin_rms_mm
 scale = colors.Normalize(0.0, 50.0)  # [mm]
 shades = colors.LinearSegmentedColormap.from_list("distance", ["#D9D9D9", "#F5C04A", "#D55E00", "#7A0018"])
@@ -40,8 +44,10 @@ view_direction = (0.75, 0.12, 1.0)  # from the body to the camera
 
 
 def row_of(folder, deformer):
-    """The row of this frame in the metrics.csv of a run or a kept record; the default form of PBS, which is not the only one there."""
-    rows = [row for row in records.table(folder / "metrics.csv", {"deformer", "variant", "order", "iterations", "time_s", *compared})
+    """The row of this frame in the metrics.csv of a run or a kept record; the default form of PBS, which is not the
+    only one there."""
+    rows = [row for row in records.table(folder / "metrics.csv", {"deformer", "variant", "order", "iterations",
+                                                                  "time_s", *compared})
             if (row["deformer"], row["variant"]) == (deformer, "default") and row["iterations"] in ("", "24")
             and row["order"] in ("", "ordered") and math.isclose(row.number("time_s"), time_s, abs_tol=1e-6)]
     records.need(rows, f"{folder / 'metrics.csv'}: no row of {deformer} at {time_s} s")
@@ -53,8 +59,8 @@ def checked_row(folder, deformer):
     run, record = row_of(folder, deformer), row_of(kept_rows, deformer)
     for column in compared:
         if not math.isclose(record.number(column), run.number(column), rel_tol=1e-5, abs_tol=1e-9):
-            raise records.RecordsMissing(f"{folder / 'metrics.csv'}: {column} of {deformer} = {run[column]}: expected {record[column]}, "
-                                         f"as in {kept_rows / 'metrics.csv'}")
+            raise records.RecordsMissing(f"{folder / 'metrics.csv'}: {column} of {deformer} = {run[column]}: "
+                                         f"expected {record[column]}, as in {kept_rows / 'metrics.csv'}")
     return run
 
 
@@ -67,7 +73,8 @@ def points_of(data):
 
 
 def skin(folder, deformer, unit_m):
-    """The skin, with the colour of its distance from the reference. unit_m: metres of the body per metre of one of 1.7 m."""
+    """The skin, with the colour of its distance from the reference. unit_m: metres of the body per metre of one of 1.7
+    m."""
     data = surface(folder, deformer)
     distances = numpy.linalg.norm(points_of(data) - points_of(surface(folder, reference)), axis=1)
     values = numpy_to_vtk(1000.0 / unit_m * distances, deep=True)
@@ -84,7 +91,8 @@ def below(row):
     inverted = int(row["inverted_tets"])
     if row["deformer"] == reference:
         return style.signed(f"volume {row.number('volume_change_pct'):+.1f} %")
-    return style.signed(f"volume {row.number('volume_change_pct'):+.1f} %\n{row.number('skin_rms_mm'):.0f} mm from FEM\n"
+    return style.signed(f"volume {row.number('volume_change_pct'):+.1f} %\n{row.number('skin_rms_mm'):.0f} mm "
+                        "from FEM\n"
                         f"{inverted} inverted tet{'' if inverted == 1 else 's'}")
 
 

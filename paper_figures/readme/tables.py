@@ -1,5 +1,6 @@
-"""The tables of the README and of other pages: one line per claim of DIR/claims.json with its page, verdict and numbers; the human's
-rows of DIR/timing/features_human/features.csv; the glossary; and the counts of the reliability tests, DIR/*.json."""
+"""The tables of the README and of other pages: one line per claim of DIR/claims.json with its page, verdict and
+numbers; the human's rows of DIR/timing/features_human/features.csv; the glossary; and the counts of the reliability
+tests, DIR/*.json."""
 import textwrap
 
 import records
@@ -19,7 +20,8 @@ width = 138  # of a line of text
 
 def filled(text, indent=""):
     """The lines of a paragraph; those after the first one begin with `indent`."""
-    return textwrap.wrap(text.replace("\u2212", "-"), width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+    return textwrap.wrap(text.replace("\u2212", "-"), width, subsequent_indent=indent, break_long_words=False,
+                         break_on_hyphens=False)
 
 
 def line(*cells):
@@ -33,7 +35,8 @@ def of_revision(run):
 
 def claims_of(results):
     file = results / "claims.json"
-    records.need(file.is_file(), f"{file.name}: does not exist: `pbskin reproduce --judge` writes it next to the records")
+    records.need(file.is_file(), f"{file.name}: does not exist: `pbskin reproduce --judge` writes it next to "
+                                 "the records")
     return sentences.claims_of(file)
 
 
@@ -47,7 +50,8 @@ def in_markdown(text):
 
 def claims_table(results):
     """The lines of the table, the header first. What is behind a verdict is on the claim's page."""
-    rows = [[page_link(claim), claim["short"], sentences.names[claim["verdict"]], claim["measured"] or "", claim["asked"] or ""]
+    rows = [[page_link(claim), claim["short"], sentences.names[claim["verdict"]], claim["measured"] or "",
+             claim["asked"] or ""]
             for claim in claims_of(results)]
     return [claim_head, "|---" * 5 + "|", *(line(*map(in_markdown, row)) for row in rows)]
 
@@ -59,12 +63,15 @@ def held_out_sentences(claims):
         later = claim["held_out"]
         if later:
             by_verdict.setdefault(later["verdict"], []).append(claim["id"])
-    parts = [f"{compared_methods.conjoined(ids, 'and')} {sentences.kinds[verdict][len(ids) != 1]}" for verdict, ids in by_verdict.items()]
-    return [f"On held-out cases, which were recorded after the thresholds were fixed, {'; '.join(parts)}."] if parts else []
+    parts = [f"{compared_methods.conjoined(ids, 'and')} {sentences.kinds[verdict][len(ids) != 1]}"
+             for verdict, ids in by_verdict.items()]
+    return ([f"On held-out cases, which were recorded after the thresholds were fixed, {'; '.join(parts)}."] if parts
+            else [])
 
 
 def claims_lines(results):
-    """With each revision and the studies whose runs judge a claim and were measured at it. The revision with the most comes first."""
+    """With each revision and the studies whose runs judge a claim and were measured at it. The revision with the most
+    comes first."""
     table, studies = claims_table(results), {}
     judged = {run for claim in claims_of(results) for run in claim["runs"]}
     for file in sorted(file for file in results.glob("*/*/run.json") if "/".join(file.parts[-3:-1]) in judged):
@@ -83,14 +90,15 @@ def features_line(row):
 
     ratio, low, high = (f"{float(row['frame_cpu_ms_ratio' + end]):.2f}" for end in ("", "_lower", "_upper"))
     moves = f"{1e3 * float(row['largest_distance_m']):.2g} mm" if row["largest_distance_m"] else ""
-    return line(case_words.of_field("feature", row["feature"]), *pair("frame_cpu_ms", 2), f"{ratio} [{low}, {high}]", *pair("start_s", 2),
-                *pair("peak_mb", 0), moves)
+    return line(case_words.of_field("feature", row["feature"]), *pair("frame_cpu_ms", 2), f"{ratio} [{low}, {high}]",
+                *pair("start_s", 2), *pair("peak_mb", 0), moves)
 
 
 def features_lines(results):
     folder = results / "timing" / "features_human"
     rows = records.table(folder / "features.csv", {"feature", "frame_cpu_ms_ratio"})
-    return [*features_head, *map(features_line, rows), "", f"Measured at revision {of_revision(records.provenance(folder))}."]
+    return [*features_head, *map(features_line, rows), "",
+            f"Measured at revision {of_revision(records.provenance(folder))}."]
 
 
 def glossary_lines():
@@ -103,5 +111,6 @@ def reliability_lines(folder):
     told = [shapes.read(file, shapes.reliability) for file in files]
     notes = [f" ({record['note']})" if record.get("note") else "" for record in told]
     return [line("what", "measured", "by", "revision"), "|---|---|---|---|",
-            *(line(record["name"], f"{record['count']} of {record['of']}{note}", f"`{record['command']}`", record["revision"][:12])
+            *(line(record["name"], f"{record['count']} of {record['of']}{note}", f"`{record['command']}`",
+                   record["revision"][:12])
               for record, note in zip(told, notes))]

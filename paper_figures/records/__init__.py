@@ -40,21 +40,23 @@ class Run:
         return sorted(rows, key=lambda row: int(float(row["frame"])))
 
     def has(self, deformer, variant="default"):
-        """Whether the deformer has a row; a reference whose budget of time was spent before its first frame has none."""
+        """Whether the deformer has a row; a reference whose budget of time was spent before its first frame has
+        none."""
         return any(is_of(row, deformer, variant, None) for row in self.rows)
 
     def statistics(self, deformer, iterations=None, variant="default"):
         """Order statistics of the deformer over the frames: a row of frame_statistics.csv."""
         rows = frame_statistics(self.folder, deformer, variant, iterations)
         if len(rows) != 1:
-            raise RecordsMissing(f"{self.folder / 'frame_statistics.csv'}: {len(rows)} rows of {in_words(deformer, variant, iterations)}, "
-                                 "expected one")
+            raise RecordsMissing(f"{self.folder / 'frame_statistics.csv'}: {len(rows)} rows of "
+                                 f"{in_words(deformer, variant, iterations)}, expected one")
         return rows[0]
 
     def reference(self, needed=True):
-        """The deformer that serves as the reference. Kept records have no scene that names it: there it is the one whose error is 0 in each
-        frame, or else the last linear FEM deformer. Empty if none is needed."""
-        name, all_of = self.record.get("scene", {}).get("reference", {}).get("name"), {row["deformer"] for row in self.rows}
+        """The deformer that serves as the reference. Kept records have no scene that names it: there it is the one
+        whose error is 0 in each frame, or else the last linear FEM deformer. Empty if none is needed."""
+        name, all_of = self.record.get("scene", {}).get("reference",
+                                                        {}).get("name"), {row["deformer"] for row in self.rows}
         wrong = {row["deformer"] for row in self.rows if row.get("error_joint_pct") != "0"}
         exact = sorted(all_of - wrong) + sorted(of for of in wrong if of.startswith("fem_"))[-1:]
         if name or exact or not needed:
@@ -63,7 +65,8 @@ class Run:
 
     def pbs_iterations(self):
         """The iteration counts with which the paper's PBS was run."""
-        return sorted({int(float(row["iterations"])) for row in self.rows if is_of(row, "pbs", "default") and row["iterations"]})
+        return sorted({int(float(row["iterations"])) for row in self.rows if is_of(row, "pbs", "default")
+                       and row["iterations"]})
 
 
 def is_of(row, deformer, variant, iterations=None):
@@ -90,7 +93,8 @@ def numbers(rows, column):
         raise RecordsMissing(f"{_place(rows[0])}: no column {column}")
     values = [float(row[column]) if row[column] not in ("", None) else math.nan for row in rows]
     if all(math.isnan(value) for value in values):
-        raise RecordsMissing(f"{_place(rows[0])}: column {column} is empty for {rows[0].get('deformer') or rows[0].get('quantity')}")
+        raise RecordsMissing(f"{_place(rows[0])}: column {column} is empty for "
+                             f"{rows[0].get('deformer') or rows[0].get('quantity')}")
     return values
 
 
@@ -109,22 +113,25 @@ def at_angle(rows, angle_deg):
 
 def scene_hash(record):
     """Digest of the resolved scene, or of a study's own work, for a figure's metadata."""
-    return hashlib.sha256(json.dumps(record.get("scene", record.get("work", {})), sort_keys=True).encode()).hexdigest()[:12]
+    return hashlib.sha256(json.dumps(record.get("scene", record.get("work", {})),
+                                     sort_keys=True).encode()).hexdigest()[:12]
 
 
 def origin_of(runs):
-    """Every version, revision, processor and scene of the runs (name -> content of its run.json), for a figure's metadata and caption."""
+    """Every version, revision, processor and scene of the runs (name -> content of its run.json), for a figure's
+    metadata and caption."""
     origins = [record.get("provenance", {}) for record in runs.values()]
     found = {key: " and ".join(dict.fromkeys(origin[key] for origin in origins if origin.get(key)))
              for key in ("version", "git_revision", "cpu_model")}
     scenes = {name: scene_hash(record) for name, record in runs.items() if record.get("scene") or record.get("work")}
-    return {key: text for key, text in found.items() if text} | {"git_dirty": any(origin.get("git_dirty") for origin in origins),
+    return {key: text for key, text in found.items() if text} | {"git_dirty": any(origin.get("git_dirty")
+                                                                                  for origin in origins),
                                                                  "scenes": scenes}
 
 
 def is_reached(row):
-    """Whether the deformer reached the pose of the frame. A run writes its frame even if the solve failed; a pose that was not reached
-    cannot serve as a reference. A record of an earlier version has no outcome and counts as reached."""
+    """Whether the deformer reached the pose of the frame. A run writes its frame even if the solve failed; a pose that
+    was not reached cannot serve as a reference. A record of an earlier version has no outcome and counts as reached."""
     return row.get("outcome") in (None, "", "finished")
 
 
@@ -167,7 +174,8 @@ class Cell(str):
 
 
 class Row(dict):
-    """A row of a table: column -> text. A missing column raises RecordsMissing. A row with further cells keeps its place."""
+    """A row of a table: column -> text. A missing column raises RecordsMissing. A row with further cells keeps its
+    place."""
 
     def __init__(self, cells, place):
         super().__init__(cells)

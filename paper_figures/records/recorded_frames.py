@@ -1,4 +1,5 @@
-"""The records of the study `frames` for one scene, by label and frame: tets, rendered surface, posed bones, binding, and the frame's row.
+"""The records of the study `frames` for one scene, by label and frame: tets, rendered surface, posed bones, binding,
+and the frame's row.
 
     frames = Frames(results, "human_jump")
     file, row = frames.skin("pbs_jiggle", 12), frames.row("pbs_jiggle", 12)
@@ -43,14 +44,16 @@ class Frames:
         return None if has_none else self._file("surface_rest.vtp", "")
 
     def embedding(self):
-        """For each point of the rendered surface, the tet that carries it, #S, and the weight of each of the tet's corners, #S x 4."""
+        """For each point of the rendered surface, the tet that carries it, #S, and the weight of each of the tet's
+        corners, #S x 4."""
         rows = records.table(self._file("embedding.csv", ""), {"point", "tet", *share_columns})
         rows.sort(key=lambda row: int(row["point"]))
         shares = numpy.array([[float(row[column]) for column in share_columns] for row in rows])
         return numpy.array([int(row["tet"]) for row in rows]), shares
 
     def points_of_joints(self):
-        """The points of the rendered surface that joints carry by more than one half, for they have no flesh of their own."""
+        """The points of the rendered surface that joints carry by more than one half, for they have no flesh of their
+        own."""
         rows = records.table(self._file("embedding.csv", ""), {"point"})
         return {int(row["point"]) for row in rows if float(row.get("joint_share") or 0.0) > 0.5}
 
@@ -85,7 +88,8 @@ class Frames:
 
     def binding(self):
         """One row per vertex: nearest bone, parameter on it, rest distance, blended and jiggles (0 or 1)."""
-        return records.table(self.folder / "binding.csv", {"vertex", "bone", "parameter", "rest_distance_m", "blended", "jiggles"})
+        return records.table(self.folder / "binding.csv", {"vertex", "bone", "parameter", "rest_distance_m", "blended",
+                                                           "jiggles"})
 
     def projections(self, bones):
         """The position of each vertex's material point on its nearest bone [m], #V x 3, for the given posed bones."""
@@ -98,10 +102,12 @@ class Frames:
     def apart(self, frame, one, other):
         """The distances between two deformers' positions of the same points of a frame: points, rms_mm, largest_mm."""
         file = self.folder / "distances.csv"
-        records.need(file.is_file(), f"{file}: does not exist: the run is of an earlier version and has to be made again")
+        records.need(file.is_file(), f"{file}: does not exist: the run is of an earlier version and has to be "
+                                     "made again")
         for row in records.table(file, {"frame", "deformer", "other", "points", "rms_mm", "largest_mm"}):
             if int(row["frame"]) == frame and {row["deformer"], row["other"]} == {one, other}:
-                return {"points": int(row["points"]), "rms_mm": float(row["rms_mm"]), "largest_mm": float(row["largest_mm"])}
+                return {"points": int(row["points"]), "rms_mm": float(row["rms_mm"]),
+                        "largest_mm": float(row["largest_mm"])}
         raise records.RecordsMissing(f"{file}: no frame {frame} of {one} and {other}")
 
     def _file(self, name, below="frames"):

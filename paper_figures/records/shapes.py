@@ -1,10 +1,11 @@
-"""The shapes of the JSON records that are read. A record of another shape is refused with the file, field, value and rule.
+"""The shapes of the JSON records that are read. A record of another shape is refused with the file, field, value and
+rule.
 
     run = record_shapes.read(folder / "run.json", record_shapes.run)
 
-A shape is a Rule for a single value; {"key": shape, "other?": shape} for an object in which `other` may be missing and members that are not
-named here are ignored; {"*": shape} for an object of any keys; [shape] for a list; (shape, shape) for a list of that length; a function for
-a shape that depends on the value.
+A shape is a Rule for a single value; {"key": shape, "other?": shape} for an object in which `other` may be missing and
+members that are not named here are ignored; {"*": shape} for an object of any keys; [shape] for a list; (shape, shape)
+for a list of that length; a function for a shape that depends on the value.
 """
 import json
 import sys
@@ -36,7 +37,8 @@ def with_member(member, having, other):
 
 
 anything = Rule("anything", lambda value: True)
-text = Rule("a text", lambda value: isinstance(value, str) and not any("\ud800" <= letter <= "\udfff" for letter in value))
+text = Rule("a text", lambda value: isinstance(value, str) and not any("\ud800" <= letter <= "\udfff"
+                                                                       for letter in value))
 text_or_none = Rule("a text or null", lambda value: value is None or text.holds(value))
 truth = Rule("true or false", lambda value: isinstance(value, bool))
 number = Rule("a number", is_number)
@@ -91,8 +93,9 @@ def read(file, shape):
 first_schema = Rule("1", lambda value: value == 1)  # of repeated.json
 third_schema = Rule("3", lambda value: value == 3)
 fourth_schema = Rule("4", lambda value: value == 4)  # of claims.json
-provenance = {"version?": text, "git_revision?": text, "git_dirty?": truth, "compiler?": text, "flags?": text, "build_type?": text,
-              "cpu_model?": text, "logical_cpus?": whole, "threads?": whole, "libraries?": {"*": text}, "input_hashes?": {"*": text}}
+provenance = {"version?": text, "git_revision?": text, "git_dirty?": truth, "compiler?": text, "flags?": text,
+              "build_type?": text, "cpu_model?": text, "logical_cpus?": whole, "threads?": whole,
+              "libraries?": {"*": text}, "input_hashes?": {"*": text}}
 deformer = {"label": text, "name": text, "variant": text,
             "options?": {"k_stretch?": number,  # XPBD records whether it jiggles, PBS with which stiffness
                          "jiggle?": lambda value: {"k_stretch": number} if isinstance(value, dict) else truth}}
@@ -105,38 +108,46 @@ judged_run = {"outcome": {"frames": whole}}  # a run compared with a reference
 
 plan = {"extent?": text, "runs": [{"name": text}], "left_out?": [{"scene": text, "reason": text}]}
 
-verdict = one_of("holds", "fails", "mixed", "not_shown", "inconclusive", "untestable", "definition", "inconsistent_in_print",
-                 "not_computable")
-key = {name + "?": text for name in ("body", "motion", "pose", "joint", "deformer", "variant", "reference", "order", "precision", "masses",
-                                     "constraint", "initial_guess", "tolerance", "load", "ladder", "factor", "second_factor", "model",
-                                     "equation", "gradient_of", "reading")}
-key |= {name + "?": number for name in ("angle_deg", "time_s", "vertices", "vertices_to", "k_stretch", "k_stretch_to", "k_bind", "young_pa",
-                                        "iterations", "iterations_to", "time_step_s", "time_step_to_s")}
+verdict = one_of("holds", "fails", "mixed", "not_shown", "inconclusive", "untestable", "definition",
+                 "inconsistent_in_print", "not_computable")
+key = {name + "?": text for name in ("body", "motion", "pose", "joint", "deformer", "variant", "reference", "order",
+                                     "precision", "masses", "constraint", "initial_guess", "tolerance", "load",
+                                     "ladder", "factor", "second_factor", "model", "equation", "gradient_of",
+                                     "reading")}
+key |= {name + "?": number for name in ("angle_deg", "time_s", "vertices", "vertices_to", "k_stretch", "k_stretch_to",
+                                        "k_bind", "young_pa", "iterations", "iterations_to", "time_step_s",
+                                        "time_step_to_s")}
 judged = {"value": figure, "threshold_low": figure, "threshold_high": figure, "holds": truth}
 excluded = one_of(None, "nothing_to_see", "no_control", "nothing_to_compare_with", "censored")
-tested = key | judged | {"quantity?": text, "unit": text, "low": figure, "high": figure, "n": whole, "excluded": excluded,
-                       "limit?": one_of("at_least", "at_most", "more_than"),
+tested = key | judged | {"quantity?": text, "unit": text, "low": figure, "high": figure, "n": whole,
+                         "excluded": excluded, "limit?": one_of("at_least", "at_most", "more_than"),
                        "parts?": [judged | {"quantity": text, "unit?": text, "low": figure, "high": figure}]}
 printed = key | judged | {"quantity": text}
-facts = {"held": whole, "n": whole, "share": figure, "least": figure, "median": figure, "most": figure, "excluded_cases": {"*": whole},
-         "quantities": [text], "of": key, "over": key, "thresholds": [key | {"low": figure, "high": figure, "quantity?": text}]}
-selection = facts | {"name": text, "role": one_of("negative_control", "positive_control", "comparison"), "behaves": truth,
-                     "cases": [tested]}
+facts = {"held": whole, "n": whole, "share": figure, "least": figure, "median": figure, "most": figure,
+         "excluded_cases": {"*": whole}, "quantities": [text], "of": key, "over": key,
+         "thresholds": [key | {"low": figure, "high": figure, "quantity?": text}]}
+selection = facts | {"name": text, "role": one_of("negative_control", "positive_control", "comparison"),
+                     "behaves": truth, "cases": [tested]}
 difference = {"field": text, "least_at": text, "least": number, "most_at": text, "most": number}
 claim = facts | {"id": text, "statement": text, "place": text, "study": text, "reason": text, "verdict": verdict,
-                 "rule": one_of("cases", "single", "printed", "definition", "untestable"), "case_fields": [text], "source": text,
-                 "why_inconclusive": one_of("none", "too_few_cases", "control_without_record", "control_misbehaves", "chance"),
+                 "rule": one_of("cases", "single", "printed", "definition", "untestable"), "case_fields": [text],
+                 "source": text, "why_inconclusive": one_of("none", "too_few_cases", "control_without_record",
+                                                            "control_misbehaves", "chance"),
                  "range": text, "interval_low": figure, "interval_high": figure, "chance": figure, "q": figure,
-                 "differs": lambda value: anything if value is None else difference, "fixed_at": text, "thresholds_fixed_at": text,
-                 "short": text, "measured": text_or_none, "asked": text_or_none, "without_body": [{"body": text, "verdict": verdict}],
-                 "threshold_ranges": [key | {"end": one_of("low", "high"), "threshold": number, "low": figure, "high": figure,
-                                             "quantity?": text}],
+                 "differs": lambda value: anything if value is None else difference, "fixed_at": text,
+                 "thresholds_fixed_at": text, "short": text, "measured": text_or_none, "asked": text_or_none,
+                 "without_body": [{"body": text, "verdict": verdict}],
+                 "threshold_ranges": [key | {"end": one_of("low", "high"), "threshold": number, "low": figure,
+                                             "high": figure, "quantity?": text}],
                  "held_out": lambda value: claim if isinstance(value, dict) else anything,
-                 "cases": [with_member("unit", tested, printed)], "controls": [selection], "compared": [selection], "readings": [selection],
-                 "excluded_scenes": [{"scene": text, "reason": text}], "missing": [text], "runs": [text]}
+                 "cases": [with_member("unit", tested, printed)], "controls": [selection], "compared": [selection],
+                 "readings": [selection], "excluded_scenes": [{"scene": text, "reason": text}], "missing": [text],
+                 "runs": [text]}
 claims = {"schema": fourth_schema, "quantities": {"*": {"title": text, "unit": text}}, "claims": [claim]}
 
-# What this machine measured again of the record: how many numbers or frames agree. The record's verdicts stand beside it, in claims.json.
-repeated = {"schema": first_schema, "text": text, "first": text, "claims": {"*": {"compared": whole, "agree": whole, "text": text}}}
+# What this machine measured again of the record: how many numbers or frames agree. The record's verdicts stand beside
+# it, in claims.json.
+repeated = {"schema": first_schema, "text": text, "first": text,
+            "claims": {"*": {"compared": whole, "agree": whole, "text": text}}}
 
 reliability = {"name": text, "count": number, "of": number, "command": text, "revision": text, "note?": text}

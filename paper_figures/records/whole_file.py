@@ -1,5 +1,5 @@
-"""Writes whole files or none: a figure is drawn into a temporary file in the same folder and renamed, so that a killed or failed drawing
-leaves no incomplete file.
+"""Writes whole files or none: a figure is drawn into a temporary file in the same folder and renamed, so that a killed
+or failed drawing leaves no incomplete file.
 
     with whole_file.beside(figures / "volume.pdf") as path:
         figure.savefig(path)
@@ -32,14 +32,15 @@ def remove_halves(path):
 
 
 def is_of(error, drawn, path):
-    """Whether an error concerns the file being written. The system names no file if a write fails, and another one if the block could not
-    read that."""
+    """Whether an error concerns the file being written. The system names no file if a write fails, and another one if
+    the block could not read that."""
     return error.filename is None or pathlib.Path(os.fsdecode(error.filename)) in (drawn, path, *path.parents)
 
 
 @contextlib.contextmanager
 def beside(path):
-    """A path with the same ending in the same folder; it is renamed to `path` if the block succeeds, otherwise removed."""
+    """A path with the same ending in the same folder; it is renamed to `path` if the block succeeds, otherwise
+    removed."""
     drawn = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

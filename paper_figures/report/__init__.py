@@ -14,7 +14,8 @@ most_mb = 12
 
 
 def refusing(write):
-    """The function, which returns 2 and prints the reason if records are missing or damaged, or a file cannot be written."""
+    """The function, which returns 2 and prints the reason if records are missing or damaged, or a file cannot be
+    written."""
     @functools.wraps(write)
     def status_of(*arguments, **options):
         try:

@@ -1,16 +1,17 @@
-"""The first screen: the short table of the claims, the moving character, what PBS is, and two answers. Every sentence is composed from
-claims.json, the tables of work_precision, and timing/timing.csv."""
+"""The first screen: the short table of the claims, the moving character, what PBS is, and two answers. Every sentence
+is composed from claims.json, the tables of work_precision, and timing/timing.csv."""
 from report import verdicts
 from report.markup import Markup, element, joined, table
 from report.record_set import not_run, number
 from words import compared_methods, glossary, sentences
 from words.number_words import span
 
-what_it_is = ("Position based skinning (PBS) moves a character\u2019s tetrahedral mesh with its bones by linear blend skinning (LBS). "
-              "Then it gives the flesh its volume back with a few iterations of stretch, volume and bind constraints.")
+what_it_is = ("Position based skinning (PBS) moves a character\u2019s tetrahedral mesh with its bones by linear blend "
+              "skinning (LBS). Then it gives the flesh its volume back with a few iterations of stretch, "
+              "volume and bind constraints.")
 where_to_go = Markup("Your own model: <code>pbskin try hero.glb</code>. "
-                     "A deformer of your own: <code>experiments/deformers/external/README.md</code> (any program or C library), "
-                     "<code>experiments/deformers/README.md</code> (C++).")
+                     "A deformer of your own: <code>experiments/deformers/external/README.md</code> (any program or C "
+                     "library), <code>experiments/deformers/README.md</code> (C++).")
 
 
 def answer(question, sentence, *more):
@@ -25,7 +26,8 @@ def do_they_hold(found):
         sentence = "No verdict is on record: run `pbskin reproduce`, or `pbskin reproduce --judge` on these records."
         shown = [*([element("p", repeats)] if repeats else []), element("p", sentence, class_="missing")]
     else:
-        shown = [element("p", " ".join(filter(None, [sentences.counts(found.claims), repeats]))), verdicts.short_table(found)]
+        shown = [element("p", " ".join(filter(None, [sentences.counts(found.claims), repeats]))),
+                 verdicts.short_table(found)]
     return card("claims", "Do the paper\u2019s claims hold?", shown)
 
 
@@ -35,7 +37,8 @@ def card(anchor, heading, parts):
 
 
 def compared(found):
-    """The methods of the study work_precision, or None without their tables. A run with deformers of the user's own answers by itself."""
+    """The methods of the study work_precision, or None without their tables. A run with deformers of the user's own
+    answers by itself."""
     for results in (found.results, found.judging):
         folder = results / "work_precision"
         methods = compared_methods.Compared(folder) if (folder / "methods.csv").is_file() else None
@@ -56,16 +59,19 @@ def which_method(found):
     question = "Which method for which time?"
     methods = compared(found)
     if not methods:
-        return answer(question, element("span", f"The nearest method is {not_run(found, 'work_precision')}.", class_="missing"))
+        return answer(question, element("span", f"The nearest method is {not_run(found, 'work_precision')}.",
+                                        class_="missing"))
     return answer(question, joined([*methods.own_answers(), methods.headline(), *methods.answers()], Markup("<br>")))
 
 
 def first_screen(viewer, answers):
     """Beside the moving character: what PBS is, and the answers; the first use of a term links to the glossary."""
     seen = set()
-    what, sentence = (glossary.linked(text, seen) for text in (element("p", what_it_is, class_="what"), joined(answers, "\n")))
+    what, sentence = (glossary.linked(text, seen) for text in (element("p", what_it_is, class_="what"),
+                                                               joined(answers, "\n")))
     return element("div", joined([element("div", viewer, id="viewer", class_="stage"), element("div", joined(
-        [what, sentence, element("p", where_to_go, class_="place")], "\n"), class_="answers")], "\n"), class_="first-screen")
+        [what, sentence, element("p", where_to_go, class_="place")], "\n"), class_="answers")], "\n"),
+                   class_="first-screen")
 
 
 # Further down: the shares of all methods, and the cost.
@@ -75,7 +81,8 @@ def distances(found):
     if not methods:
         return ""
     head = ["method", "takes", *map(compared_methods.time_name, methods.columns_ms)]
-    return joined([table("Error at the joints in per cent of that of LBS, with known flesh [range over the reference variants]", head,
+    return joined([table("Error at the joints in per cent of that of LBS, with known flesh [range over the reference "
+                         "variants]", head,
                          methods.table("known")), element("p", compared_methods.legend)])
 
 

@@ -1,4 +1,5 @@
-"""The cases' numbers of a claim on a small axis: the threshold as a shaded band, each case as a dot, each control as a mark below."""
+"""The cases' numbers of a claim on a small axis: the threshold as a shaded band, each case as a dot, each control as a
+mark below."""
 import math
 
 from report.markup import Markup, element, escaped
@@ -33,17 +34,20 @@ def known(cases):
 
 
 def drawn(claim):
-    """The axis of the claim's first quantity; nothing where no case has a number, or each has a threshold of its own."""
+    """The axis of the claim's first quantity; nothing where no case has a number, or each has a threshold of its
+    own."""
     if claim["rule"] == "printed":
         return ""
     groups = {quantity: known(cases) for quantity, cases in sentences.by_quantity(claim).items()}
     quantity, tested = next(((name, cases) for name, cases in groups.items() if cases), (None, []))
     if not tested:
         return ""
-    of_one_threshold = [case for case in tested if all(case[end] == tested[0][end] for end in ("threshold_low", "threshold_high"))]
+    of_one_threshold = [case for case in tested if all(case[end] == tested[0][end]
+                                                       for end in ("threshold_low", "threshold_high"))]
     tested = of_one_threshold
     others = sum(len(cases) for cases in groups.values()) - len(tested)
-    controls = [(f"{of['name']}, {case_words.of_field('role', of['role'])}", known(sentences.by_quantity(of).get(quantity, [])))
+    controls = [(f"{of['name']}, {case_words.of_field('role', of['role'])}",
+                 known(sentences.by_quantity(of).get(quantity, [])))
                 for of in claim["controls"]]
     low, high = tested[0]["threshold_low"], tested[0]["threshold_high"]
     ends = [end for end in (low, high) if end is not None]
@@ -54,14 +58,18 @@ def drawn(claim):
         parts.append(f'<rect class="threshold" x="{left:.1f}" y="2" width="{max(right - left, 1):.1f}" height="18"/>')
     parts.append(f'<line class="line" x1="0" x2="{width}" y1="20" y2="20"/>')
     colours = [("holds" if case["holds"] else "fails") if ends else "control" for case in tested]
-    parts += [f'<circle class="{colour}" cx="{scale.place(case["value"]):.1f}" cy="11" r="3"/>' for case, colour in zip(tested, colours)]
-    parts += [f'<path class="control" d="M{scale.place(middle(cases)):.1f} 21l4 8h-8z"><title>{escaped(name)}</title></path>'
+    parts += [f'<circle class="{colour}" cx="{scale.place(case["value"]):.1f}" cy="11" r="3"/>'
+              for case, colour in zip(tested, colours)]
+    parts += [f'<path class="control" d="M{scale.place(middle(cases)):.1f} 21l4 '
+              f'8h-8z"><title>{escaped(name)}</title></path>'
               for name, cases in controls if cases]
-    label = f"{sentences.title(claim, quantity)}: {sentences.span(tested)}; threshold: {sentences.threshold(low, high) or 'none'}"
+    label = (f"{sentences.title(claim, quantity)}: {sentences.span(tested)}; threshold: "
+             f"{sentences.threshold(low, high) or 'none'}")
     label += f"; {counted(others, 'more number has', 'more numbers have')} other thresholds" if others else ""
-    kinds = [f"control {name}: {figure(middle(cases))}" for name, cases in controls if cases]  # for those who do not see it
-    picture = Markup(f'<svg class="axis" viewBox="0 0 {width} {height}" role="img" aria-label="{escaped("; ".join([label, *kinds]))}">'
-                     f'{"".join(parts)}</svg>')
+    # The label is for those who do not see the picture.
+    kinds = [f"control {name}: {figure(middle(cases))}" for name, cases in controls if cases]
+    picture = Markup(f'<svg class="axis" viewBox="0 0 {width} {height}" role="img" '
+                     f'aria-label="{escaped("; ".join([label, *kinds]))}">{"".join(parts)}</svg>')
     return Markup(picture + element("span", label, class_="under"))
 
 

@@ -1,5 +1,5 @@
-"""The distance of the deformers from nonlinear finite elements over whole sweeps and clips, from frame_statistics.csv; and the verification
-of the finite element reference itself: its values, their sources and the origins of thresholds."""
+"""The distance of the deformers from nonlinear finite elements over whole sweeps and clips, from frame_statistics.csv;
+and the verification of the finite element reference itself: its values, their sources and the origins of thresholds."""
 import records
 from records import shapes
 from report.markup import beside_the_page, element, escaped, folder_link, inline, items, joined, table
@@ -55,26 +55,28 @@ def section(found):
     return joined([table(caption, header, rows), where, left_out], "\n"), missing
 
 
-reference_header = ["problem", "quantity", "elements", "material", "mesh", "degrees of freedom", "value", "reference", "unit",
-                    "difference [%]", "order (theory)", "threshold", "holds", "notes"]
+reference_header = ["problem", "quantity", "elements", "material", "mesh", "degrees of freedom", "value", "reference",
+                    "unit", "difference [%]", "order (theory)", "threshold", "holds", "notes"]
 
 
 def verdict(rows):
     """How many of the values with a threshold lie within it."""
     bounded = [row["holds"] for row in rows if row["holds"]]
-    return (f"{bounded.count('yes')} of {counted(len(bounded), 'value')} with a threshold fixed beforehand lie within it; "
+    return (f"{bounded.count('yes')} of {counted(len(bounded), 'value')} with a threshold fixed beforehand lie "
+            "within it; "
             f"{len(rows) - len(bounded)} more have no threshold and are reported only.")
 
 
 def cells(row, notes):
     ends = [number(row, "low"), number(row, "high")]
     order = "" if number(row, "observed_order") is None else f"{number(row, 'observed_order'):.2f}"
-    theory = f" ({figure(number(row, 'expected_order'))})" if order and number(row, "expected_order") is not None else ""
+    theory = (f" ({figure(number(row, 'expected_order'))})" if order and number(row, "expected_order") is not None
+              else "")
     difference = number(row, "difference_pct")
     marks = [str(notes.index(row[column]) + 1) for column in ("source", "bound_from") if row[column]]
     return [row["problem"], inline(row["description"] + (f" ({row['note']})" if row["note"] else "")),
-            case_words.elements(row["element_order"], row["formulation"]), case_words.material(row), row["mesh"], row["dofs"],
-            figure(number(row, "value")), figure(number(row, "reference")), row["unit"],
+            case_words.elements(row["element_order"], row["formulation"]), case_words.material(row), row["mesh"],
+            row["dofs"], figure(number(row, "value")), figure(number(row, "reference")), row["unit"],
             "" if difference is None else f"{difference:+.3g}".replace("-", "\u2212"), order + theory,
             "" if ends == [None, None] else f"{figure(ends[0])} to {figure(ends[1])}", row["holds"], ", ".join(marks)]
 
@@ -82,9 +84,12 @@ def cells(row, notes):
 def reference_section(found):
     rows = found.rows("verification/verification.csv")
     if not rows:
-        return element("p", f"The reference against theory and benchmarks is {not_run(found, 'verification')}.", class_="missing")
+        return element("p", f"The reference against theory and benchmarks is {not_run(found, 'verification')}.",
+                       class_="missing")
     # Sources and origins of thresholds, each once, in the order of the rows.
     notes = list(dict.fromkeys(row[column] for row in rows for column in ("source", "bound_from") if row[column]))
-    shown = table("The reference against theory and published benchmarks", reference_header, [cells(row, notes) for row in rows], "tall")
+    shown = table("The reference against theory and published benchmarks", reference_header,
+                  [cells(row, notes) for row in rows], "tall")
     answer = element("p", verdict(rows), class_="answer")
-    return joined([answer, shown, element("ol", joined(element("li", inline(note)) for note in notes)) if notes else ""])
+    return joined([answer, shown, element("ol", joined(element("li", inline(note)) for note in notes)) if notes
+                   else ""])

@@ -25,8 +25,9 @@ def smaller(found):
 
 
 def inline_svg(text, name, label):
-    """The drawing alone, with ids that are unique in the page. Namespaces and metadata are removed, since HTML needs neither. The title of
-    a value becomes an attribute: the page has fewer elements, and its script need not visit them when it opens."""
+    """The drawing alone, with ids that are unique in the page. Namespaces and metadata are removed, since HTML needs
+    neither. The title of a value becomes an attribute: the page has fewer elements, and its script need not visit them
+    when it opens."""
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg"):], flags=re.S)
     text = re.sub(r'\sxmlns(:\w+)?="[^"]*"', "", text)
     text = re.sub(r"(<circle [^>]*)><title>([^<]*)</title></circle>",
@@ -35,7 +36,8 @@ def inline_svg(text, name, label):
     text = re.sub(r'\bid="([^"]+)"', rf'id="{name}-\1"', text)
     text = re.sub(r"url\(#([^)]+)\)", rf"url(#{name}-\1)", text)
     text = re.sub(r'(?:xlink:)?href="#([^"]+)"', rf'href="#{name}-\1"', text).replace("xlink:href=", "href=")
-    return Markup(text.replace("<svg", f'<svg role="img" aria-label="{html.escape(label)}" tabindex="0" class="plot"', 1))
+    return Markup(text.replace("<svg", f'<svg role="img" aria-label="{html.escape(label)}" tabindex="0" class="plot"',
+                               1))
 
 
 def as_uri(content, kind):
@@ -75,9 +77,11 @@ def drawn_figure(found, entry, number, file):
     title = entry.title if papers_own.match(entry.title) else f"Figure {number}: {entry.title}"
     from_record = found.judging != found.results and entries.not_asked_for(entry, found.results)
     about = [element("b", f"{title}. "), entry.caption, " Drawn from the kept record. " if from_record else " "]
-    claims = joined((element("a", claim, href=f"#{claim}") if claim in known else claim for claim in entry.claims), ", ")
+    claims = joined((element("a", claim, href=f"#{claim}") if claim in known else claim for claim in entry.claims),
+                    ", ")
     about += ["Claims: ", claims, ". "] if entry.claims else []
-    about += [Markup(f'<abbr title="{html.escape(entries.marks[entry.mark])}">{entry.mark}</abbr>'), numbers_link(found, entry)]
+    about += [Markup(f'<abbr title="{html.escape(entries.marks[entry.mark])}">{entry.mark}</abbr>'),
+              numbers_link(found, entry)]
     drawing = inline_svg(file.read_text(), entry.name, f"{entry.title}. {entry.caption}")
     return element("figure", joined([drawing, element("figcaption", joined(about))], "\n"), id=f"figure-{entry.name}")
 
@@ -89,7 +93,8 @@ def section(found):
         number += entry.title.startswith("Figure ")
         try:
             file = drawn(found, entry)
-            as_drawn = dataclasses.replace(entry, **{part: captions.read(entry, found.results / "figures", part)  # as when it was drawn
+            # Title and caption are those of the time when it was drawn.
+            as_drawn = dataclasses.replace(entry, **{part: captions.read(entry, found.results / "figures", part)
                                                      for part in ("title", "caption")})
             number += not papers_own.match(entry.title)
             parts.append(drawn_figure(found, as_drawn, number, file))
@@ -98,7 +103,9 @@ def section(found):
             causes.setdefault(str(error).replace(f"{found.results}/", ""), []).append(entry.name)
     missing = [f"figure{'s' * (len(names) > 1)} {', '.join(names)}: {cause}" for cause, names in causes.items()]
     intro = ("R: redrawn in minutes on any machine; CR: in hours; NR: not from this repository\u2019s records. "
-             "With JavaScript, values are shown next to the pointer or the finger; with the keyboard: tab to a plot, then the arrow keys.")
+             "With JavaScript, values are shown next to the pointer or the finger; with the keyboard: tab to a plot, "
+             "then the arrow keys.")
     listed = element("ul", joined(element("li", line) for line in missing), class_="not-drawn") if missing else ""
     title = element("h3", "Not drawn") if missing else ""
-    return joined([element("p", intro), element("div", joined(parts, "\n"), class_="figures"), title, listed], "\n"), shown, missing
+    return joined([element("p", intro), element("div", joined(parts, "\n"), class_="figures"), title, listed],
+                  "\n"), shown, missing

@@ -17,7 +17,8 @@ def escaped(value):
 
 def element(tag, content, **attributes):
     """An element. class_ and the like lose their underscore; other underscores in names become hyphens."""
-    written = "".join(f' {name.rstrip("_").replace("_", "-")}="{html.escape(str(value))}"' for name, value in attributes.items())
+    written = "".join(f' {name.rstrip("_").replace("_", "-")}="{html.escape(str(value))}"'
+                      for name, value in attributes.items())
     return Markup(f"<{tag}{written}>{escaped(content)}</{tag}>")
 
 

@@ -1,5 +1,6 @@
-"""The origin of the records: revision, machine, libraries, inputs, what was left out, and the licences of what is shown; the expected and
-measured time of the studies; and how to cite the suite and the paper that it examines, from CITATION.cff."""
+"""The origin of the records: revision, machine, libraries, inputs, what was left out, and the licences of what is
+shown; the expected and measured time of the studies; and how to cite the suite and the paper that it examines, from
+CITATION.cff."""
 import pathlib
 import re
 
@@ -23,7 +24,8 @@ def values_of(found, key):
 
 def facts_table(found):
     def told(values):
-        return "; ".join(str(value) if len(values) == 1 else f"{value} ({counted(count, 'run')})" for value, count in values.items())
+        return "; ".join(str(value) if len(values) == 1 else f"{value} ({counted(count, 'run')})"
+                         for value, count in values.items())
 
     rows = [[label, told(values_of(found, key))] for key, label in case_words.tables["provenance"].items()]
     libraries = {f"{name} {version}" for run in found.runs.values()
@@ -41,7 +43,8 @@ def inputs_table(found):
             for (file, value), runs in sorted(inputs.items())]
     if not rows:
         return ""
-    return details(f"inputs and their hashes ({len(rows)})", table("Inputs", ["input", "hash", "runs", "such as"], rows, "tall"))
+    return details(f"inputs and their hashes ({len(rows)})", table("Inputs", ["input", "hash", "runs", "such as"], rows,
+                                                                   "tall"))
 
 
 def texts_in(value):
@@ -63,7 +66,8 @@ def rights(found):
 
 def section(found, with_viewer=False):
     revisions = len(values_of(found, "git_revision"))
-    parts = [element("p", f"Note: the records are of {revisions} revisions.", class_="missing")] if revisions > 1 else []
+    parts = ([element("p", f"Note: the records are of {revisions} revisions.", class_="missing")] if revisions > 1
+             else [])
     parts += [facts_table(found), inputs_table(found)]
     for title, shown in (("Excluded", [f"{study}: {scene}: {reason}" for study, scene, reason in found.left_out()]),
                          ("Bodies and motions", rights(found)),
@@ -102,7 +106,8 @@ def costs_section(found):
         return element("p", "no study left its costs.csv", class_="missing")
     header = ["runs", "processor, expected [s]", "processor, taken [s]", "total wall time of the runs [s]"]
     # Quick or full, from the study's plan; plans of earlier versions do not state it.
-    rows = [[study, found.plans.get(study, {}).get("extent", "\u2013"), *totals(rows)] for study, rows in studies.items()]
+    rows = [[study, found.plans.get(study, {}).get("extent", "\u2013"), *totals(rows)]
+            for study, rows in studies.items()]
     rows.append([element("b", "all"), "", *totals([row for rows in studies.values() for row in rows])])
     single = [[f"{study}/{row['run']}", *totals([row])[1:]] for study, rows in studies.items() for row in rows]
     each = table("Each run's time", ["run", *header[1:]], single, "tall")
@@ -123,11 +128,13 @@ def citation_section(found):
     own, *references = re.split(r"^references:", citation.read_text(), flags=re.M)
     revision = next(iter(found.runs.values())).get("provenance", {}).get("git_revision", "unknown")
     authors = ", ".join(re.findall(r'- name: "([^"]+)"', own))
-    parts = [element("p", f"{authors}: {value(own, 'title')}, version {value(own, 'version')}, {value(own, 'license')}. "
+    parts = [element("p", f"{authors}: {value(own, 'title')}, version {value(own, 'version')}, "
+                          f"{value(own, 'license')}. "
                           f"Revision of these records: {revision}.")]
     for text in references:
         families, given = (re.findall(rf'{name}-names: "([^"]+)"', text) for name in ("family", "given"))
         authors = ", ".join(f"{first} {last}" for first, last in zip(given, families))
-        told = f"The paper: {authors}: {value(text, 'title')}. {value(text, 'collection-title')}, {value(text, 'year')}."
+        told = (f"The paper: {authors}: {value(text, 'title')}. {value(text, 'collection-title')}, "
+                f"{value(text, 'year')}.")
         parts.append(element("p", told))
     return joined([*parts, details("CITATION.cff", element("pre", citation.read_text(), tabindex=0))])

@@ -1,4 +1,5 @@
-"""The contents of a folder of records: the verdicts, the origin of each run and its cost. Nothing is computed beyond the records.
+"""The contents of a folder of records: the verdicts, the origin of each run and its cost. Nothing is computed beyond
+the records.
 
     found = record_set.RecordSet(results)
     for claim in found.claims: ...
@@ -14,7 +15,8 @@ class RecordSet:
         self.results = results
         self.runs = {file.parent.relative_to(results).as_posix(): shapes.read(file, shapes.run)
                      for file in self.files("**/run.json")}
-        records.need(self.runs, f"{results}: no records: no run.json in it or below; run `pbskin reproduce -o` into it first")
+        records.need(self.runs, f"{results}: no records: no run.json in it or below; run `pbskin reproduce -o` into "
+                                "it first")
         self.studies = sorted({name.split("/")[0] for name in self.runs})
         self.plans = {file.parent.name: shapes.read(file, shapes.plan) for file in self.files("*/plan.json")}
         judged = results / "claims.json"
@@ -37,7 +39,8 @@ class RecordSet:
 
     def left_out(self):
         """(study, scene, reason) for each scene that could not run on that machine."""
-        return [(study, left["scene"], left["reason"]) for study, plan in self.plans.items() for left in plan.get("left_out", [])]
+        return [(study, left["scene"], left["reason"]) for study, plan in self.plans.items()
+                for left in plan.get("left_out", [])]
 
 
 def not_run(found, study):
@@ -48,7 +51,8 @@ def not_run(found, study):
 def why_absent(found, study):
     if study in found.studies:
         return f"the runs of the study {study} have none of it"
-    return f"the study {study} was started and has not ended" if (found.results / study).is_dir() else f"the study {study} was not run"
+    return (f"the study {study} was started and has not ended" if (found.results / study).is_dir()
+            else f"the study {study} was not run")
 
 
 def number(row, column):

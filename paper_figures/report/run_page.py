@@ -1,5 +1,5 @@
-"""The page of a single run: what it found over its frames, its warnings, the viewer and where its records come from. It holds what the run
-was asked for. What is missing is the viewer, if no frames were written or they cannot be shown."""
+"""The page of a single run: what it found over its frames, its warnings, the viewer and where its records come from. It
+holds what the run was asked for. What is missing is the viewer, if no frames were written or they cannot be shown."""
 import importlib
 import math
 import pathlib
@@ -22,7 +22,8 @@ from words.number_words import counted, figure, listed, span_of_thousandths
 moved = {"frames?": shapes.whole, "warnings?": [shapes.text], "notes?": [shapes.text], "bad_frame?": shapes.text,
          "breakdown?": shapes.text,
          "from_artist?": {"largest_pct": shapes.number, "frame": shapes.whole},
-         "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole, "matched_joints?": shapes.whole,
+         "motion?": {"largest_rotation_deg?": shapes.number, "clip_joints?": shapes.whole,
+                     "matched_joints?": shapes.whole,
                      "stretched_bones?": [{"bone": shapes.text, "change_pct": shapes.number, "frame": shapes.whole}]}}
 shape = shapes.run | {"scene": shapes.scene | {"name": shapes.text}, "outcome": moved}
 MODEL = 'id="viewer-block"'  # of the element of the page that has what the viewer shows
@@ -30,7 +31,8 @@ animation = {"name": shapes.text, "duration_s": shapes.number, "largest_rotation
 ranking = {"place": shapes.one_of("joints", "body"), "methods": [{"deformer": shapes.text, "median_pct": shapes.number,
                                                                    "nearest_in": shapes.whole}]}
 trial = {"summary": shapes.text, "nearest_sentence?": shapes.text, "doubtful_reference?": shapes.text_or_none,
-         "inverting?": {"*": {"is_excluded?": shapes.truth}}, "nearest?": lambda value: shapes.anything if value is None else ranking,
+         "inverting?": {"*": {"is_excluded?": shapes.truth}}, "nearest?": lambda value: shapes.anything if value is None
+         else ranking,
          "warnings": [shapes.text], "notes?": [shapes.text], "animations?": [animation]}
 
 
@@ -75,10 +77,12 @@ def known(rows, column):
 
 
 def place_of_errors(found):
-    """The column of the errors, and where they are measured: over the body where no joint has one. None for a run without errors."""
+    """The column of the errors, and where they are measured: over the body where no joint has one. None for a run
+    without errors."""
     nearest = (found.trial or {}).get("nearest") or {}
     places = {"joints": ("error_joint_pct", "at the joints"), "body": ("error_l2_pct", "over the body")}
-    return next((place for name, place in places.items() if nearest.get("place", name) == name and known(found.run.rows, place[0])), None)
+    return next((place for name, place in places.items() if nearest.get("place", name) == name
+                 and known(found.run.rows, place[0])), None)
 
 
 def errors_of(found):
@@ -90,11 +94,13 @@ def errors_of(found):
             for label, of in errors.items() if label != reference}
 
 
-least_visible_pct = 0.01  # an error below it is no difference between two methods, as in experiments/trial/trial_facts.cpp
+# An error below it is no difference between two methods, as in experiments/trial/trial_facts.cpp.
+least_visible_pct = 0.01
 
 
 def compared_frames(errors):
-    """The frames in which all methods have an error that is seen: a method that fails in the hard ones would look best by the others."""
+    """The frames in which all methods have an error that is seen: a method that fails in the hard ones would look best
+    by the others."""
     of_frames = {frame: [of[frame] for of in errors.values() if frame in of] for frame in set().union(*errors.values())}
     seen = {frame: len(of) for frame, of in of_frames.items() if max(of) >= least_visible_pct}
     most = max(seen.values(), default=0)
@@ -107,8 +113,8 @@ def excluded(found):
 
 
 def methods_of(found):
-    """What the first card has of each deformer, the nearest one first and the reference last; without errors in their own order. A trial
-    has ranked its methods."""
+    """What the first card has of each deformer, the nearest one first and the reference last; without errors in their
+    own order. A trial has ranked its methods."""
     errors, methods, not_compared = errors_of(found), [], excluded(found)
     frames = compared_frames(errors)
     ranked = {of["deformer"]: of for of in ((found.trial or {}).get("nearest") or {}).get("methods", ())}
@@ -118,19 +124,21 @@ def methods_of(found):
     for label in found.labels():
         rows, own = found.rows(label), [error for frame, error in errors.get(label, {}).items() if frame in frames]
         change, step = (known(rows, column) for column in ("volume_change_pct", "step_ms"))
-        rank = ranked.get(label, {"median_pct": statistics.median(own) if own else None, "nearest_in": nearest.count(label)})
+        rank = ranked.get(label, {"median_pct": statistics.median(own) if own else None,
+                                  "nearest_in": nearest.count(label)})
         methods.append({"label": label, "name": looks.of(label).name, "is_reference": label not in errors,
                         "change": span_of_thousandths(change), "is_compared": label not in not_compared,
                         "volume_pct": max(change, key=abs, default=None) if found.judges_volume() else None,
                         "inverted": max(known(rows, "inverted_tets"), default=0), "error_pct": rank["median_pct"],
                         "largest_pct": max(own, default=None), "step_ms": statistics.median(step) if step else None,
                         "nearest_in": rank["nearest_in"]})
-    return sorted(methods, key=lambda of: (of["is_reference"], math.inf if of["error_pct"] is None else of["error_pct"]))
+    return sorted(methods,
+                  key=lambda of: (of["is_reference"], math.inf if of["error_pct"] is None else of["error_pct"]))
 
 
 def lines(found):
-    """The three lines of the first screen: what changes, how far it is from simulated flesh, and what it costs. They compare PBS and LBS,
-    or the first two deformers of a run without both."""
+    """The three lines of the first screen: what changes, how far it is from simulated flesh, and what it costs. They
+    compare PBS and LBS, or the first two deformers of a run without both."""
     usual = [label for label in ("pbs", "lbs") if label in found.labels()]
     of = {looks.of(label).name: found.rows(label) for label in (usual if len(usual) == 2 else found.labels()[:2])}
 
@@ -158,7 +166,8 @@ def lines(found):
 def summary(found):
     """The first card: the nearest method in one sentence, and one row per method."""
     methods, errors, volume = methods_of(found), place_of_errors(found), found.judges_volume()
-    header = ["method", *(["error [%]"] if errors else []), *(["volume [%]"] if volume else []), "ms per frame", "inverted tets"]
+    header = ["method", *(["error [%]"] if errors else []), *(["volume [%]"] if volume else []), "ms per frame",
+              "inverted tets"]
 
     def row(of):
         error = "the reference" if of["is_reference"] else (
@@ -171,15 +180,16 @@ def summary(found):
     sentence = methods_of_run.nearest_method(methods) if of_trial is None else of_trial
     shown = [element("p", f"{sentence[:1].upper()}{sentence[1:]}")] if sentence else []
     notes = [*([f"Error {errors[1]}: its median and, in brackets, its largest value."] if errors else []),
-             *(["Volume: the range of its change."] if volume else []), "Time: the median.", "Inverted tets: the most in a frame."]
+             *(["Volume: the range of its change."] if volume else []), "Time: the median.",
+             "Inverted tets: the most in a frame."]
     note = element("p", " ".join(notes), class_="under")
     return answers.card("summary", "Which method is nearest?" if errors and sentence else "The methods",
                         [*shown, table("Over all frames", header, map(row, methods)), note])
 
 
 def joints(found):
-    """The mean change of the volume at each joint, and where other bones meet, in per cent of the volume there. A run without the table of
-    bones does not state which pairs are bone and parent: all are taken for joints."""
+    """The mean change of the volume at each joint, and where other bones meet, in per cent of the volume there. A run
+    without the table of bones does not state which pairs are bone and parent: all are taken for joints."""
     parents = {row["bone"]: row["parent"] for row in found.table("bones_rest.csv")}
     at_joints, at_others = {}, {}
     for row in found.table("regions.csv"):
@@ -187,7 +197,8 @@ def joints(found):
         if row["kind"] == "joint":
             of = at_joints if not parents or parents.get(other) == one or parents.get(one) == other else at_others
             of.setdefault(f"{one} \u2013 {other}", {})[row["deformer"]] = number(row, "own_change_pct")
-    tables = volume_table(found, at_joints, "at a joint", "joint"), volume_table(found, at_others, "where two bones meet", "bones")
+    tables = volume_table(found, at_joints, "at a joint", "joint"), volume_table(found, at_others,
+                                                                                 "where two bones meet", "bones")
     return joined(filter(None, tables), "\n")
 
 
@@ -205,22 +216,27 @@ def distances(found):
     """The distances between the surfaces of each pair of deformers over the written frames."""
     pairs = {}
     for row in found.table("distances.csv"):
-        pairs.setdefault((row["deformer"], row["other"], row["of"]), []).append((number(row, "rms_mm"), number(row, "largest_mm")))
+        pairs.setdefault((row["deformer"], row["other"], row["of"]),
+                         []).append((number(row, "rms_mm"), number(row, "largest_mm")))
     if not pairs:
         return ""
-    body = [[f"{looks.of(one).name} and {looks.of(other).name}", of, figure(statistics.median(rms for rms, _ in values)),
-             figure(max(largest for _, largest in values)), len(values)] for (one, other, of), values in pairs.items()]
+    body = [[f"{looks.of(one).name} and {looks.of(other).name}", of,
+             figure(statistics.median(rms for rms, _ in values)), figure(max(largest for _, largest in values)),
+             len(values)] for (one, other, of), values in pairs.items()]
     return table("Distances between the same points of two deformers, at the size of this body",
                  ["deformers", "of", "median rms [mm]", "largest [mm]", "frames"], body, "tall")
 
 
-# Sentences about the rigged model of a run. The page shows a sentence if the record has a value for each name in braces.
-of_model = ("File: {file}; {meshes_in_file}: {meshes}.", "Largest extent: {extent_m} m, with {metres_per_unit} m per unit of the file.",
+# Sentences about the rigged model of a run. The page shows a sentence if the record has a value for each name in
+# braces.
+of_model = ("File: {file}; {meshes_in_file}: {meshes}.", "Largest extent: {extent_m} m, with {metres_per_unit} m per "
+                                                         "unit of the file.",
             "Joints dropped: {dropped}.", "Containers, which only contribute their transform: {containers}.",
-            "From the bind pose to the file's rest pose, bones turn by up to {bind_pose_deg}\u00b0.", "Animations: {animations}.",
-            "The tets carry {weights_transferred_pct} % of the artist's weights.",
+            "From the bind pose to the file's rest pose, bones turn by up to {bind_pose_deg}\u00b0.",
+            "Animations: {animations}.", "The tets carry {weights_transferred_pct} % of the artist's weights.",
             "Bones whose distance from their parent changes by more than 10 %: {stretched}.",
-            "The surface that LBS carries with the tets is up to {largest_pct} % of the model's size from the artist's, in frame {frame}.",
+            "The surface that LBS carries with the tets is up to {largest_pct} % of the model's size from the "
+            "artist's, in frame {frame}.",
             "{matched_joints} of the clip's {clip_joints} moving joints match, without fingers and the like.")
 animation_columns = ["animation", "duration [s]", "largest rotation of a joint [degrees]", "shown here"]
 
@@ -236,14 +252,16 @@ def model(found):
         values["stretched"] = [f"{of['bone']} by {of['change_pct']:+.0f} % in frame {of['frame']}" for of in bones]
     values["meshes_in_file"] = counted(len(record["meshes"]), "mesh", "meshes")
     played = None if "clip_joints" in values else record.get("animation")
-    rows = [[one["name"], figure(one["duration_s"]), figure(one["largest_rotation_deg"]), "yes" if one["name"] == played else ""]
+    rows = [[one["name"], figure(one["duration_s"]), figure(one["largest_rotation_deg"]),
+             "yes" if one["name"] == played else ""]
             for one in (found.trial or {}).get("animations", [])]
     if rows:
         del values["animations"]
     words = {name: listed(value) if isinstance(value, list) else figure(value) if isinstance(value, float) else value
              for name, value in values.items()}
     facts = [text.format(**words) for text in of_model if words.keys() >= set(re.findall(r"\{(\w+)\}", text))]
-    animations = table("Animations of the model; --animation NAME takes another one", animation_columns, rows, "tall") if rows else ""
+    animations = table("Animations of the model; --animation NAME takes another one", animation_columns, rows,
+                       "tall") if rows else ""
     bones = details(f"{counted(len(record['joints']), 'joint')} that are bones", items(record["joints"]))
     return joined([items(facts), animations, bones], "\n")
 
@@ -261,16 +279,18 @@ def abscissa(rows):
 def over_frames(found):
     rows = {label: found.rows(label) for label in found.labels()}
     column, where = place_of_errors(found) or ("error_joint_pct", "at the joints")
-    measures = [*([("volume_change_pct", "volume change [%]")] if found.judges_volume() else []), (column, f"error {where} [%]"),
-                ("inverted_tets", "inverted tets")]
-    shown = [(column, name) for column, name in measures if any(value for of in rows.values() for value in known(of, column))]
+    measures = [*([("volume_change_pct", "volume change [%]")] if found.judges_volume() else []),
+                (column, f"error {where} [%]"), ("inverted_tets", "inverted tets")]
+    shown = [(column, name) for column, name in measures if any(value for of in rows.values()
+                                                                for value in known(of, column))]
     shown = shown or measures[:1]
     figure, axes = style.panels(len(shown), 1, height_in=1.7, sharex=True)
     for panel, (column, name) in zip(axes[:, 0], shown):
         for label, of in rows.items():
             x, unit = abscissa(of)
             y = [next(iter(known([row], column)), math.nan) for row in of]
-            # Between two frames without a value, as where the reference was not solved, a point has no line and is seen by its marker.
+            # Between two frames without a value, as where the reference was not solved, a point has no line and is seen
+            # by its marker.
             marked = 1 if any(map(math.isnan, y)) else max(1, len(y) // 9)
             panel.plot(x, y, **style.as_of(label, markevery=marked))
         panel.set_ylabel(name)
@@ -282,7 +302,8 @@ def over_frames(found):
 
 def error_against_time(methods, where):
     """One point per method that has an error and a time; None without any."""
-    points = [of for of in methods if not of["is_reference"] and of["error_pct"] is not None and of["step_ms"] is not None]
+    points = [of for of in methods if not of["is_reference"] and of["error_pct"] is not None
+              and of["step_ms"] is not None]
     if not points:
         return None
     figure, axes = style.panels(1, 1, height_in=2.6)
@@ -309,7 +330,8 @@ def drawn(found, name, figure, title, caption):
 def figures_section(found):
     methods = [of for of in methods_of(found) if not of["is_reference"]]
     caption = "The numbers of metrics.csv over the frames."
-    title = methods_of_run.largest_change(methods) if found.judges_volume() else "Errors and inverted tets over the frames"
+    title = (methods_of_run.largest_change(methods) if found.judges_volume() else "Errors and inverted tets over "
+                                                                                  "the frames")
     parts = [drawn(found, "over-frames", over_frames(found), title, caption)]
     _, where = place_of_errors(found) or (None, "")
     against_time = error_against_time(methods, where)
@@ -317,14 +339,15 @@ def figures_section(found):
         is_doubtful = (found.trial or {}).get("doubtful_reference")
         title = "" if is_doubtful else methods_of_run.error_and_time(methods)
         caption = f"The median over the frames of the error {where} and of the time of a step."
-        parts.append(drawn(found, "error-against-time", against_time, title or "Error and time of each method", caption))
+        parts.append(drawn(found, "error-against-time", against_time, title or "Error and time of each method",
+                           caption))
     told = element("p", "Values are shown next to the pointer or the finger.")
     return joined([told, element("div", joined(parts, "\n"), class_="figures")], "\n")
 
 
 def viewer_of(found):
-    """The viewer, and what is missing of it. A trial removes its frames after it has made its page; then the viewer of that page is kept,
-    or what it would show if its program were built."""
+    """The viewer, and what is missing of it. A trial removes its frames after it has made its page; then the viewer of
+    that page is kept, or what it would show if its program were built."""
     kept = None
     if not any((found.folder / "frames").glob("*.vtu")):
         page = found.folder / "report.html"
@@ -352,7 +375,8 @@ def page(folder):
     remarks = found.trial or outcome
     warnings = [*filter(None, (outcome.get("breakdown"), outcome.get("bad_frame"))), *remarks.get("warnings", [])]
     viewer, missing = viewer_of(found)
-    unseen = joined(element("p", inline(f"The moving model is missing: {reason}."), class_="missing") for reason in missing)
+    unseen = joined(element("p", inline(f"The moving model is missing: {reason}."), class_="missing")
+                    for reason in missing)
     as_set = types.SimpleNamespace(results=folder, runs={found.name: found.record}, left_out=lambda: [])
     first = [summary(found), answers.first_screen(joined(filter(None, (viewer, unseen)), "\n"), lines(found))]
     sections = [("warnings", "Warnings", items(warnings, "missing") if warnings else ""),

@@ -1,13 +1,15 @@
-"""Packs the recorded frames of DIR/frames into one block of bytes, with a header that describes its contents, for the interactive viewer.
+"""Packs the recorded frames of DIR/frames into one block of bytes, with a header that describes its contents, for the
+interactive viewer.
 
-Positions are rounded to a grid of 65536 steps over the longest edge of the run's bounding box: low_m + step_m * code, so that each
-coordinate is within step_m / 2 of the record. A frame is stored as the difference of its codes to those of the previous frame (modulo
-65536), first the low bytes of all frames, then the high ones, which compresses well.
-The rendered surface is not stored frame by frame: each of its points is the weighted sum of the corners of the tet that carries it (float32
-weights), and so within step_m / 2 times the sum of the absolute weights.
-Volume ratios take one byte: 0 is an inverted tet (ratio <= 0), a code c > 0 represents (c - 1) / 127, and 255 all ratios above 2.
-Contact takes one byte per vertex: 0 is none, 1 touching, and a code c > 1 an overlap of (c - 2) / 2 mm, 255 all that are deeper.
-Millimetres are those of a body whose largest extent at rest is 1.7 m, like the distances of metrics.csv.
+Positions are rounded to a grid of 65536 steps over the longest edge of the run's bounding box: low_m + step_m * code,
+so that each coordinate is within step_m / 2 of the record. A frame is stored as the difference of its codes to those of
+the previous frame (modulo 65536), first the low bytes of all frames, then the high ones, which compresses well.
+The rendered surface is not stored frame by frame: each of its points is the weighted sum of the corners of the tet that
+carries it (float32 weights), and so within step_m / 2 times the sum of the absolute weights.
+Volume ratios take one byte: 0 is an inverted tet (ratio <= 0), a code c > 0 represents (c - 1) / 127, and 255 all
+ratios above 2. Contact takes one byte per vertex: 0 is none, 1 touching, and a code c > 1 an overlap of (c - 2) / 2 mm,
+255 all that are deeper. Millimetres are those of a body whose largest extent at rest is 1.7 m, like the distances of
+metrics.csv.
 """
 import gzip
 import hashlib
@@ -21,20 +23,22 @@ from drawing import rendering
 from records import entries, recorded_frames
 from words import looks
 
-titles = {"limb_twist": "limb, twist", "limb_bend": "limb, bend", "human_jump": "human, jumping", "human_walk": "human, walking"}
-figures = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "skin_rms_mm", "min_section_pct",
-           "angle_deg", "masked_share_pct")
+titles = {"limb_twist": "limb, twist", "limb_bend": "limb, bend", "human_jump": "human, jumping",
+          "human_walk": "human, walking"}
+figures = ("volume_change_pct", "inverted_tets", "j_min", "error_joint_pct", "error_linf_m", "skin_rms_mm",
+           "min_section_pct", "angle_deg", "masked_share_pct")
 ratio_steps, position_steps, contact_step_mm = 127, 65535, 0.5
 
 
 def read_frame(file):
-    """Positions [m], #V x 3, tets, #T x 4, volume ratios, #T, rest positions [m], #V x 3, depths of contact [um], #V (None in
-    older frames)."""
+    """Positions [m], #V x 3, tets, #T x 4, volume ratios, #T, rest positions [m], #V x 3, depths of contact [um], #V
+    (None in older frames)."""
     grid = rendering.read(file)
     ratio, rest = grid.GetCellData().GetArray("volume_ratio"), grid.GetPointData().GetArray("rest_position")
     if not ratio or not rest:
         raise records.RecordsMissing(f"{file}: no {'rest_position' if ratio else 'volume_ratio'}")
-    arrays = (vtk_to_numpy(grid.GetPoints().GetData()), rendering.corners_of(grid), vtk_to_numpy(ratio), vtk_to_numpy(rest))
+    arrays = (vtk_to_numpy(grid.GetPoints().GetData()), rendering.corners_of(grid), vtk_to_numpy(ratio),
+              vtk_to_numpy(rest))
     depth = grid.GetPointData().GetArray("contact_depth_um")
     return *(numpy.array(array) for array in arrays), numpy.array(vtk_to_numpy(depth)) if depth else None
 
@@ -48,13 +52,16 @@ def rounded_up(value):
 
 
 def scales_of(read, positions, reference, rest):
-    """Millimetres of a body of 1.7 m per metre of this one. In these millimetres: the ends of the scales of difference and overlap, which
-    one in a hundred vertices, or overlapping vertices, exceeds. positions: of the frames whose pose was reached."""
+    """Millimetres of a body of 1.7 m per metre of this one. In these millimetres: the ends of the scales of difference
+    and overlap, which one in a hundred vertices, or overlapping vertices, exceeds. positions: of the frames whose pose
+    was reached."""
     mm_per_m = 1.7e3 / float((rest.max(axis=0) - rest.min(axis=0)).max())
     truth = positions.get(reference)
-    apart_m = [numpy.linalg.norm(of - truth, axis=2) for label, of in positions.items() if label != reference and truth is not None]
+    apart_m = [numpy.linalg.norm(of - truth, axis=2) for label, of in positions.items() if label != reference
+               and truth is not None]
     depths_m = [1e-6 * one[4][one[4] > 0] for of in read.values() for one in of if one[4] is not None]
-    ends = [rounded_up(mm_per_m * numpy.percentile(numpy.concatenate([numpy.ravel(part) for part in (*parts, [0.0])]), 99))
+    ends = [rounded_up(mm_per_m * numpy.percentile(numpy.concatenate([numpy.ravel(part) for part in (*parts, [0.0])]),
+                                                   99))
             for parts in (apart_m, depths_m)]
     return {"mm_per_m": mm_per_m, "difference_mm": ends[0], "deepest_mm": ends[1], "contact_step_mm": contact_step_mm}
 
@@ -77,15 +84,16 @@ def codes_of(positions, low, step):
 
 
 def differences(codes):
-    """The difference of each frame to the previous one, modulo 65536, with the first frame as it is: their low bytes, then their high
-    bytes."""
+    """The difference of each frame to the previous one, modulo 65536, with the first frame as it is: their low bytes,
+    then their high bytes."""
     result = codes.copy()
     result[1:] -= codes[:-1]
     return numpy.stack([result & 255, result >> 8]).astype("u1")
 
 
 class Block:
-    """Arrays in sequence, each at a multiple of four bytes. Equal arrays are stored once, since runs of one body share them."""
+    """Arrays in sequence, each at a multiple of four bytes. Equal arrays are stored once, since runs of one body share
+    them."""
 
     def __init__(self):
         self.bytes = bytearray()
@@ -102,10 +110,13 @@ class Block:
 
 
 def rows_of(recorded):
-    """For each label its rows of metrics.csv in the frames that were written, in the order of the panels: in the order of looks.toml."""
+    """For each label its rows of metrics.csv in the frames that were written, in the order of the panels: in the order
+    of looks.toml."""
     labels = [label for label in looks.in_order(recorded.deformers) if recorded.run.has(*recorded.deformers[label])]
-    rows = {label: recorded.run.select(recorded.deformers[label][0], variant=recorded.deformers[label][1]) for label in labels}
-    written = {row["frame"] for label, of in rows.items() for row in of if recorded.is_written(label, int(row["frame"]))}
+    rows = {label: recorded.run.select(recorded.deformers[label][0], variant=recorded.deformers[label][1])
+            for label in labels}
+    written = {row["frame"] for label, of in rows.items()
+               for row in of if recorded.is_written(label, int(row["frame"]))}
     rows = {label: kept for label, of in rows.items() if (kept := [row for row in of if row["frame"] in written])}
     if not rows:
         raise records.RecordsMissing(f"{recorded.folder / 'frames'}: no frames were written")
@@ -113,8 +124,8 @@ def rows_of(recorded):
 
 
 def title_of(recorded, label):
-    """The title of a PBS panel whose stiffness differs from that of plain PBS in the same scene: that stiffness and the one of its jiggling
-    zone, as recorded."""
+    """The title of a PBS panel whose stiffness differs from that of plain PBS in the same scene: that stiffness and the
+    one of its jiggling zone, as recorded."""
     options = {run["label"]: run.get("options", {}) for run in recorded.run.record["scene"]["runs"]}
     own, plain = options[label], options.get("pbs", {})
     if "k_stretch" not in own or own["k_stretch"] == plain.get("k_stretch"):
@@ -138,14 +149,16 @@ def pack_bones(recorded, frames, block):
 
 
 def pack_surface(recorded, block):
-    """The rendered surface: its triangles, and the tet and weights of each of its points. None for a body without one."""
+    """The rendered surface: its triangles, and the tet and weights of each of its points. None for a body without
+    one."""
     file = recorded.skin_at_rest()
     if not file:
         return None
     triangles = vtk_to_numpy(rendering.read(file).GetPolys().GetConnectivityArray()).reshape(-1, 3)
     tets, shares = recorded.embedding()
     if triangles.max() >= len(tets):
-        raise records.RecordsMissing(f"{recorded.folder / 'embedding.csv'}: {len(tets)} points, but {file.name} has more")
+        raise records.RecordsMissing(f"{recorded.folder / 'embedding.csv'}: {len(tets)} points, but {file.name} "
+                                     "has more")
     of_joints = recorded.points_of_joints()  # the tets would draw them elsewhere
     triangles = numpy.array([corners for corners in triangles.tolist() if of_joints.isdisjoint(corners)]).reshape(-1, 3)
     return {"points": len(tets), "triangles": len(triangles), "of_joints": len(of_joints),
@@ -165,14 +178,15 @@ def finite(row, column):
 
 
 def facts_of(recorded, every):
-    """The facts from the run's tables, without its frames. A deformer without a solution in a frame, as a reference whose budget left
-    it out, has not reached it."""
+    """The facts from the run's tables, without its frames. A deformer without a solution in a frame, as a reference
+    whose budget left it out, has not reached it."""
     rows = {label: {int(row["frame"]): row for row in of} for label, of in rows_of(recorded).items()}
     first = list(max(rows.values(), key=len).values())[::every]
     frames = [int(row["frame"]) for row in first]
     shown = [{"label": label, "title": title_of(recorded, label), "colour": looks.of(label).color,
               "figures": {column: [finite(of.get(frame, {}), column) for frame in frames] for column in figures},
-              "not_reached": [at for at, frame in enumerate(frames) if frame not in of or not records.is_reached(of[frame])],
+              "not_reached": [at for at, frame in enumerate(frames) if frame not in of
+                              or not records.is_reached(of[frame])],
               "states": [last_state(of, frame) for frame in frames]} for label, of in rows.items()]
     return {"name": recorded.run.name, "title": titles.get(recorded.run.name, recorded.run.name),
             "reference": recorded.run.reference(needed=False),
@@ -181,10 +195,12 @@ def facts_of(recorded, every):
 
 
 def without_broken(facts, positions):
-    """The facts without deformers that have a position that is not finite, which are listed under `left_out` with that frame."""
+    """The facts without deformers that have a position that is not finite, which are listed under `left_out` with that
+    frame."""
     broken = {label: facts["frames"][int(is_finite.argmin())] for label, of in positions.items()
               if not (is_finite := numpy.isfinite(of).all(axis=(1, 2))).all()}
-    parts = {is_kept: [of for of in facts["deformers"] if (of["label"] not in broken) == is_kept] for is_kept in (True, False)}
+    parts = {is_kept: [of for of in facts["deformers"] if (of["label"] not in broken) == is_kept]
+             for is_kept in (True, False)}
     left_out = [{"title": of["title"], "frame": broken[of["label"]]} for of in parts[False]]
     return {**facts, "deformers": parts[True], "left_out": left_out}
 
@@ -192,16 +208,19 @@ def without_broken(facts, positions):
 def pack_run(recorded, every, block):
     """The header of one run; its arrays are added to the block."""
     facts = facts_of(recorded, every)
-    read = {of["label"]: [read_frame(recorded.tets(of["label"], frame)) for frame in of.pop("states")] for of in facts["deformers"]}
+    read = {of["label"]: [read_frame(recorded.tets(of["label"], frame)) for frame in of.pop("states")]
+            for of in facts["deformers"]}
     positions = {label: numpy.stack([one[0] for one in of]) for label, of in read.items()}
     _, tets, _, rest, _ = next(iter(read.values()))[0]
     facts = without_broken(facts, positions)
-    records.need(facts["deformers"], f"{recorded.folder / 'frames'}: every deformer has a position that is not finite: nothing to show")
+    records.need(facts["deformers"], f"{recorded.folder / 'frames'}: every deformer has a position that is not finite: "
+                                     "nothing to show")
     low, step = grid_over(numpy.stack([positions[of["label"]] for of in facts["deformers"]]))
     rest_low, rest_step = grid_over(rest)
     bad = {at for of in facts["deformers"] for at in of["not_reached"]}
     good = [at for at in range(len(facts["frames"])) if at not in bad] or [0]
-    scales = scales_of(read, {of["label"]: positions[of["label"]][good] for of in facts["deformers"]}, facts["reference"], rest)
+    scales = scales_of(read, {of["label"]: positions[of["label"]][good] for of in facts["deformers"]},
+                       facts["reference"], rest)
     for deformer in facts["deformers"]:
         deformer["positions"] = block.put(differences(codes_of(positions[deformer["label"]], low, step)))
         ratios = numpy.stack([one[2] for one in read[deformer["label"]]])
@@ -216,11 +235,12 @@ def pack_run(recorded, every, block):
 
 
 def recorded_runs(results):
-    """The runs of the study `frames`, after a check that they are planned, written by their own run and not changed since, like the records
-    of a figure, and that all have one revision."""
+    """The runs of the study `frames`, after a check that they are planned, written by their own run and not changed
+    since, like the records of a figure, and that all have one revision."""
     found = [recorded_frames.Frames(results, name) for name in titles if (results / "frames" / name).is_dir()]
     records.need(found, f"{results / 'frames'}: no frames on record; the study `frames` writes them")
-    files = [f"frames/{recorded.run.name}/{file}" for recorded in found for file in ("metrics.csv", "bones.csv", "frames/*.vtu")]
+    files = [f"frames/{recorded.run.name}/{file}" for recorded in found
+             for file in ("metrics.csv", "bones.csv", "frames/*.vtu")]
     entries.Entry("viewer", "", "", [], files, "", "R").check(results)
     return found
 
@@ -229,4 +249,5 @@ def pack(recorded, every=1):
     """The header and the compressed block of these runs, with every n-th frame."""
     block = Block()
     runs = [pack_run(one, every, block) for one in recorded]
-    return {"schema": 1, "every": every, "ratio_steps": ratio_steps, "runs": runs}, gzip.compress(bytes(block.bytes), 9, mtime=0)
+    return {"schema": 1, "every": every, "ratio_steps": ratio_steps,
+            "runs": runs}, gzip.compress(bytes(block.bytes), 9, mtime=0)

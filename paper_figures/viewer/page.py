@@ -1,4 +1,5 @@
-"""The interactive viewer as a piece of HTML for the report: its header, the frames and the program, all inline, without network access.
+"""The interactive viewer as a piece of HTML for the report: its header, the frames and the program, all inline, without
+network access.
 
     fragment = page.fragment(results)               # <div id="frame-viewer">, the data and the bundle
     links = page.claim_links(results)              # claim -> "#run=...", which opens the claim's pose in the viewer
@@ -20,7 +21,8 @@ from viewer import data as viewer_data
 
 most_bytes = 5_000_000  # limit for the viewer, so that the report stays below 12 MB
 # From the colour of the skin to dark ones, so that what agrees with the reference looks like skin.
-difference_colors = colors.LinearSegmentedColormap.from_list("difference", [rendering.skin_color, "#F4A040", "#D3341E", "#5A0F46"])
+difference_colors = colors.LinearSegmentedColormap.from_list("difference",
+                                                             [rendering.skin_color, "#F4A040", "#D3341E", "#5A0F46"])
 overlap_colors = colors.LinearSegmentedColormap.from_list("overlap", ["#F08A70", "#7A0016"])
 folder = pathlib.Path(__file__).resolve().parent
 how_to_build = "npm ci && npm run build, in paper_figures/viewer"
@@ -59,7 +61,8 @@ def statements(results):
 
 
 def pack(recorded):
-    """Packs every frame, or every second, third, ... one if all are too many for a page. Returns the header and base64 text."""
+    """Packs every frame, or every second, third, ... one if all are too many for a page. Returns the header and base64
+    text."""
     for every in range(1, 100):
         header, block = viewer_data.pack(recorded, every)
         text = base64.b64encode(block).decode()
@@ -69,8 +72,8 @@ def pack(recorded):
 
 
 def fragment(results):
-    """The HTML of the viewer for the study `frames`. RecordsMissing if frames are missing or the program is not built; the message states
-    how to get it."""
+    """The HTML of the viewer for the study `frames`. RecordsMissing if frames are missing or the program is not built;
+    the message states how to get it."""
     return fragment_of(viewer_data.recorded_runs(results), statements(results))
 
 
@@ -100,8 +103,9 @@ def data_of(recorded, claims=None):
         f'<script type="application/octet-stream;base64" id="viewer-block">{block}</script>'))
 
 
-# The recorded frame that shows a claim best: the one in which a recorded number of a deformer is at its extreme, opened by a link such as
-# `#run=limb_twist&frame=18&colour=ratio&claim=C01`. Claim, run, deformer and its column, which extreme, colouring, panels, description.
+# The recorded frame that shows a claim best: the one in which a recorded number of a deformer is at its extreme, opened
+# by a link such as `#run=limb_twist&frame=18&colour=ratio&claim=C01`. Claim, run, deformer and its column, which
+# extreme, colouring, panels, description.
 poses = (
     ("C01", "limb_twist", "lbs", "volume_change_pct", min, "ratio", "", "LBS loses most volume"),
     ("C02a", "human_jump", "pbs", "volume_change_pct", "far", "ratio", "", "PBS is farthest from the volume at rest"),
@@ -111,7 +115,8 @@ poses = (
     ("C05", "limb_bend", "dqs", "error_joint_pct", max, "error", "lbs,dqs,pbs,nh_p1", "DQS errs most at the joint"),
     ("C09a", "human_walk", "pbs_jiggle", "error_linf_m", max, "error", "lbs,pbs_no_zone,pbs_jiggle,nh_p1",
      "jiggling flesh is farthest from FEM; for comparison, the same stiffness without a jiggling zone"),
-    ("C12a", "human_jump", "pbs", "error_joint_pct", max, "error", "", "PBS with 24 iterations errs most at the joints"),
+    ("C12a", "human_jump", "pbs", "error_joint_pct", max, "error", "",
+     "PBS with 24 iterations errs most at the joints"),
 )
 
 
@@ -133,7 +138,8 @@ def poses_of(runs):
         panels = ",".join(panel for panel in panels.split(",") if panel in known)
         at = position_of(known[label]["figures"][column], extreme)
         if at is not None:
-            found.append({"claim": claim, "run": run, "frame": named[run]["frames"][at], "colour": colour, "panels": panels, "what": what})
+            found.append({"claim": claim, "run": run, "frame": named[run]["frames"][at], "colour": colour,
+                          "panels": panels, "what": what})
     return found
 
 

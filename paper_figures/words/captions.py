@@ -1,7 +1,7 @@
-"""The title of a figure, which is its message, and its caption. A name in braces in figures.toml is a number of the figure:
-NAME_facts(rows) of the figure's script computes it from the rows of NAME.csv, and {cpu} is the processor of the runs behind the figure.
-Both are written to NAME.title.txt and NAME.caption.txt when the figure is drawn. The caption's end names the planned runs that have no
-record.
+"""The title of a figure, which is its message, and its caption. A name in braces in figures.toml is a number of the
+figure: NAME_facts(rows) of the figure's script computes it from the rows of NAME.csv, and {cpu} is the processor of the
+runs behind the figure. Both are written to NAME.title.txt and NAME.caption.txt when the figure is drawn. The caption's
+end names the planned runs that have no record.
 
     captions.write(entry, results, figures)
     captions.read(entry, figures, "title")
@@ -16,7 +16,8 @@ of_runs = {"cpu"}  # known without the rows behind the figure
 
 def asked(entry, parts=("title", "caption")):
     """The names in braces."""
-    return {name for part in parts for _, name, _, _ in string.Formatter().parse(getattr(entry, part)) if name is not None}
+    return {name for part in parts for _, name, _, _ in string.Formatter().parse(getattr(entry, part))
+            if name is not None}
 
 
 def file_of(entry, figures, part):

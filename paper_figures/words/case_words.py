@@ -1,7 +1,8 @@
-"""Describes the case of a value in claims.json in words: its body, motion, joint and settings. The key is a set of fields, which
-analysis/verdicts/case_record.hpp declares.
+"""Describes the case of a value in claims.json in words: its body, motion, joint and settings. The key is a set of
+fields, which analysis/verdicts/case_record.hpp declares.
 
-    case_words.of({"body": "limb", "motion": "bend", "angle_deg": 90, "k_stretch": 0.2})  # limb, bend 90°, k_stretch 0.2
+    # limb, bend 90°, k_stretch 0.2
+    case_words.of({"body": "limb", "motion": "bend", "angle_deg": 90, "k_stretch": 0.2})
 """
 import pathlib
 import re
@@ -9,7 +10,8 @@ import tomllib
 
 from words import looks
 
-tables = tomllib.loads((pathlib.Path(__file__).parent / "words.toml").read_text(encoding="utf-8"))  # field -> {value: words}
+# For each field, the words of its values: field -> {value: words}.
+tables = tomllib.loads((pathlib.Path(__file__).parent / "words.toml").read_text(encoding="utf-8"))
 
 
 def number(value):
@@ -46,13 +48,15 @@ def of_field(field, value):
 
 
 def elements(order, formulation):
-    """P2 Taylor-Hood. Where there are no finite elements, the order is empty and the formulation names what is in their place."""
+    """P2 Taylor-Hood. Where there are no finite elements, the order is empty and the formulation names what is in their
+    place."""
     return " ".join(part for part in (f"P{order}" if order else "", tables["formulation"][formulation]) if part)
 
 
 def material(row):
     """stable neo-Hookean, nu = 0.3: the law of a row of verification.csv."""
-    return tables["law"].get(row["material"], row["material"]) + (f", nu = {float(row['poisson']):.6g}" if row["poisson"] else "")
+    return tables["law"].get(row["material"], row["material"]) + (f", nu = {float(row['poisson']):.6g}"
+                                                                  if row["poisson"] else "")
 
 
 def posed(row):
@@ -62,12 +66,13 @@ def posed(row):
 
 
 # The settings of a computation in the order in which they are described, with their words and the scale of their unit.
-setting_words = {**{field: ("{}", 1) for field in ("deformer", "variant", "order", "precision", "masses", "load", "ladder", "tolerance",
-                                                   "initial_guess")},
-                 "constraint": ("{} constraints", 1), "reference": ("compared with {}", 1), "vertices": ("{} vertices", 1),
-                 "k_stretch": ("k_stretch {}", 1), "k_bind": ("k_bind {}", 1), "young_pa": ("{} kPa", 1e-3),
-                 "iterations": ("{} iterations", 1), "time_step_s": ("steps of {} ms", 1e3), "factor": ("{}", 1),
-                 "second_factor": ("{}", 1), "equation": ("Eq. {}", 1), "gradient_of": ("{}", 1), "reading": ("{}", 1), "model": ("{}", 1)}
+setting_words = {**{field: ("{}", 1) for field in ("deformer", "variant", "order", "precision", "masses", "load",
+                                                   "ladder", "tolerance", "initial_guess")},
+                 "constraint": ("{} constraints", 1), "reference": ("compared with {}", 1),
+                 "vertices": ("{} vertices", 1), "k_stretch": ("k_stretch {}", 1), "k_bind": ("k_bind {}", 1),
+                 "young_pa": ("{} kPa", 1e-3), "iterations": ("{} iterations", 1),
+                 "time_step_s": ("steps of {} ms", 1e3), "factor": ("{}", 1), "second_factor": ("{}", 1),
+                 "equation": ("Eq. {}", 1), "gradient_of": ("{}", 1), "reading": ("{}", 1), "model": ("{}", 1)}
 
 
 def settings(case):

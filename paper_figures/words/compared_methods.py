@@ -1,12 +1,13 @@
-"""Which methods are nearest to the references for a time per frame: sentences and cells from the tables of the study work_precision. The
-figures, the README, the study's page and the report all have theirs from here.
+"""Which methods are nearest to the references for a time per frame: sentences and cells from the tables of the study
+work_precision. The figures, the README, the study's page and the report all have theirs from here.
 
     compared = compared_methods.Compared(results / "work_precision")
     " ".join(compared.answers())                       # Within 0.1 ms per frame, DQS leaves 86 % of LBS's error (...
     compared_methods.cell(compared.row("known", 1.0, "vbd"))   # 33 [33, 48] ab
 
-A share is the error at the joints over that of LBS: the median over the reference variants, with the range over them. In the table `known`,
-methods that take flesh are given that of each reference; in `guessed`, they have the same flesh whatever the reference is.
+A share is the error at the joints over that of LBS: the median over the reference variants, with the range over them.
+In the table `known`, methods that take flesh are given that of each reference; in `guessed`, they have the same flesh
+whatever the reference is.
 """
 import math
 
@@ -14,16 +15,17 @@ import records
 from words import case_words, looks
 from words.number_words import figure
 
-method_columns = {"table", "budget_ms", "method", "takes", "setting", "ms", "times_pbs", "within", "poses", "fewest_poses", "share",
-                  "share_low", "share_high", "fold_share", "skin_mm", "letters"}
+method_columns = {"table", "budget_ms", "method", "takes", "setting", "ms", "times_pbs", "within", "poses",
+                  "fewest_poses", "share", "share_low", "share_high", "fold_share", "skin_mm", "letters"}
 significance = 0.05   # of an adjusted p, as in analysis/statistics/paired_comparison.hpp
 most_names = 4        # in a list that is read aloud
 familiar = ("pbs", "delta_mush", "lbs")  # the sentence always states how the nearest method compares with these
 most_exceptions = 2    # that are named; more of them are counted
 played_ms = 1.0       # the time for which the sentence has the methods along a clip
-marks = {"doubled": "", "once": "\u2020", "no": "\u2021"}  # within the time with twice its own, only just, or not on this machine
-legend = ("Neither of two methods that share a letter is decided to be nearer. \u2020: not within the time if the machine is half as fast; "
-          "\u2021: not within it on this machine.")
+# Within the time with twice its own, only just, or not on this machine.
+marks = {"doubled": "", "once": "\u2020", "no": "\u2021"}
+legend = ("Neither of two methods that share a letter is decided to be nearer. \u2020: not within the time if the "
+          "machine is half as fast; \u2021: not within it on this machine.")
 
 
 def name(method):
@@ -52,7 +54,8 @@ def millimetres(value):
 
 
 def assumed(members):
-    """bones hold the flesh as rigid capsules or the flesh is nearly incompressible: what these reference variants assume."""
+    """bones hold the flesh as rigid capsules or the flesh is nearly incompressible: what these reference variants
+    assume."""
     return conjoined([case_words.of_field("member", member) for member in members], "or")
 
 
@@ -80,8 +83,8 @@ def is_learned(row):
 
 def cell(row):
     """33 [33, 48] ab: the share, its range and the letters; nothing where a method needs more time."""
-    return "" if row is None else (f"{percent(row['share'])} [{percent(row['share_low'])}, {percent(row['share_high'])}] "
-                                   f"{row['letters']}{marks[row['within']]}")
+    return "" if row is None else (f"{percent(row['share'])} [{percent(row['share_low'])}, "
+                                   f"{percent(row['share_high'])}] {row['letters']}{marks[row['within']]}")
 
 
 def in_range(shares):
@@ -126,7 +129,8 @@ class Compared:
             yield [name(method), taken(next(filter(None, rows))), *map(cell, rows)]
 
     def against(self, table, ms, method):
-        """{decision: other methods, by their share}. The decisions are level, nearer (this method is), farther, depends and open."""
+        """{decision: other methods, by their share}. The decisions are level, nearer (this method is), farther, depends
+        and open."""
         turned = {"first_is_nearer": ("nearer", "farther"), "second_is_nearer": ("farther", "nearer")}
         found = {}
         for first, second, decision in self.decided.get((table, ms), ()):
@@ -137,9 +141,10 @@ class Compared:
                 for decision in ("level", "nearer", "farther", "depends", "open")}
 
     def nearest(self, table, ms, takes_nothing=False):
-        """The least share, unless another method is decided to be nearer. A method that misses the time on this machine is no answer.
-        takes_nothing: among the methods that are given nothing of the reference."""
-        rows = [row for row in self.rows(table, ms) if row["within"] != "no" and not (takes_nothing and taken(row) != "nothing")]
+        """The least share, unless another method is decided to be nearer. A method that misses the time on this machine
+        is no answer. takes_nothing: among the methods that are given nothing of the reference."""
+        rows = [row for row in self.rows(table, ms) if row["within"] != "no"
+                and not (takes_nothing and taken(row) != "nothing")]
         beaten = {row["method"]: self.against(table, ms, row["method"])["farther"] for row in rows}
         return next((row for row in rows if not set(beaten[row["method"]]) & set(beaten)), rows[0] if rows else None)
 
@@ -154,7 +159,8 @@ class Compared:
 
     def variants(self, table, ms, method, other):
         """The reference variants that compare the two."""
-        return [row["member"] for row in of_time(self.pairs, table, ms) if {row["first"], row["second"]} == {method, other}]
+        return [row["member"] for row in of_time(self.pairs, table, ms)
+                if {row["first"], row["second"]} == {method, other}]
 
     def familiar_ones(self, table, ms, method, with_exceptions=True):
         """nearer than PBS and LBS for 7 of 8 reference variants (not decided if the flesh is nearly incompressible)"""
@@ -164,7 +170,8 @@ class Compared:
             if nearer:
                 without = [member for member in variants if member not in nearer]
                 text = f" for {len(nearer)} of {len(variants)} reference variants" if without else ""
-                if with_exceptions and 0 < len(without) <= most_exceptions and not self.where_nearer(table, ms, other, method):
+                if (with_exceptions and 0 < len(without) <= most_exceptions
+                    and not self.where_nearer(table, ms, other, method)):
                     text += f", not decided if {assumed(without)}"
                 by_variants.setdefault(text, []).append(other)
         return "; ".join(f"nearer than {named(others)}{text}" for text, others in by_variants.items())
@@ -182,9 +189,10 @@ class Compared:
         if pbs is None:
             return ""
         shares = in_range([float(pbs[f"share_{end}"]) for end in ("low", "high")])
-        return (f"Within {ms:g} ms, PBS leaves {shares} of the error of LBS at the joints, over reference variants that differ in how "
-                f"bones hold the flesh and in its Poisson's ratio ({pbs['poses']} poses). The skin of a body of 1.7 m is "
-                f"{millimetres(pbs['skin_mm'])} mm from flesh, that of LBS {millimetres(lbs['skin_mm'])} mm.")
+        return (f"Within {ms:g} ms, PBS leaves {shares} of the error of LBS at the joints, over reference variants "
+                f"that differ in how bones hold the flesh and in its Poisson's ratio ({pbs['poses']} poses). "
+                f"The skin of a body of 1.7 m is {millimetres(pbs['skin_mm'])} mm from flesh, that of LBS "
+                f"{millimetres(lbs['skin_mm'])} mm.")
 
     def rivals(self, table, ms, method, others):
         """Those of the open pairs that the comparison with the familiar ones does not state."""
@@ -196,16 +204,19 @@ class Compared:
         known, without = self.nearest("known", ms), self.nearest("known", ms, takes_nothing=True)
         if known is None:
             return f"No method is fast enough on this machine for {ms:g} ms per frame."
-        text = (f"With {ms:g} ms per frame, {name(known['method'])} has the least error: it leaves {percent(known['share'])} % of the "
-                f"error of LBS")
-        guessed, learned = self.row("guessed", ms, known["method"]), next((row for row in self.rows("known", ms) if is_learned(row)), None)
+        text = (f"With {ms:g} ms per frame, {name(known['method'])} has the least error: "
+                f"it leaves {percent(known['share'])} % of the error of LBS")
+        guessed, learned = self.row("guessed", ms, known["method"]), next((row for row in self.rows("known", ms)
+                                                                           if is_learned(row)), None)
         if known["takes"] and not is_learned(known) and guessed is not None:
-            text += f" if material and springs of the flesh are known, and {percent(guessed['share'])} % if they are guessed"
+            text += (f" if material and springs of the flesh are known, and {percent(guessed['share'])} % if they "
+                     "are guessed")
         if learned is not None:
-            text += (f". {name(learned['method'])}, learned once for each body, leaves {percent(learned['share'])} % in "
-                     f"{float(learned['ms']):.1g} ms")
+            text += (f". {name(learned['method'])}, learned once for each body, "
+                     f"leaves {percent(learned['share'])} % in {float(learned['ms']):.1g} ms")
         if without is not None and without is not known:
-            text += f"; of the methods that need none of this, {name(without['method'])} leaves {percent(without['share'])} %"
+            text += (f"; of the methods that need none of this, {name(without['method'])} leaves "
+                     f"{percent(without['share'])} %")
             mush = self.row("known", ms, "delta_mush")
             if mush is not None and mush is not without:
                 text += f" and {name(mush['method'])} {percent(mush['share'])} %"
@@ -218,16 +229,19 @@ class Compared:
         row = self.nearest(table, ms, takes_nothing)
         if row is None:
             return "no method is fast enough on this machine"
-        method, share, error, on_body = row["method"], percent(row["share"]), " of LBS's error", " from flesh on a body of 1.7 m"
+        method, share, error, on_body = (row["method"], percent(row["share"]), " of LBS's error",
+                                         " from flesh on a body of 1.7 m")
         against = self.against(table, ms, method)
         if takes_nothing:
             against = {decision: [other for other in others if taken(self.row(table, ms, other)) == "nothing"]
                        for decision, others in against.items()}
-        text = "no method is nearer than LBS" if method == "lbs" else f"{name(method)} leaves {share} %{error if is_first else ''}"
+        text = ("no method is nearer than LBS" if method == "lbs" else f"{name(method)} leaves {share} "
+                                                                       f"%{error if is_first else ''}")
         notes = [f"{millimetres(row['skin_mm'])} mm{on_body if is_first else ''}",
                  *(f"level with {named(others)}" for others in [against["level"]] if others),
                  *filter(None, [self.familiar_ones(table, ms, method)]),
-                 *(f"{named(others)} may be as near" for others in [self.rivals(table, ms, method, against["open"])] if others)]
+                 *(f"{named(others)} may be as near" for others in [self.rivals(table, ms, method, against["open"])]
+                   if others)]
         by_condition = {}
         for other in against["depends"]:
             by_condition.setdefault(self.conditions(table, ms, other, method), []).append(other)
@@ -240,27 +254,30 @@ class Compared:
         is_first = ms == self.times_ms[0]
         text = self.clause("known", ms, "", is_first)
         if self.clause("guessed", ms, "", is_first) != text:
-            text = f"{self.clause('known', ms, ' with the flesh known', is_first)}. With guessed flesh, {self.clause('guessed', ms)}"
+            text = (f"{self.clause('known', ms, ' with the flesh known', is_first)}. With guessed flesh, "
+                    f"{self.clause('guessed', ms)}")
         nearest, familiar_one = self.nearest("known", ms), self.nearest("known", ms, takes_nothing=True)
         if nearest is not familiar_one and familiar_one is not None:
             text += f". Of the methods that take nothing of the flesh, {self.clause('known', ms, takes_nothing=True)}"
         return f"Within {ms:g} ms{' per frame' if is_first else ''}, {text}."
 
     def played(self):
-        """What the nearest method and PBS leave along the clips, and of the same frames alone; no sentence without clips."""
+        """What the nearest method and PBS leave along the clips, and of the same frames alone; no sentence without
+        clips."""
         rows = [row for row in self.motion if float(row["budget_ms"]) == played_ms]
         nearest = self.nearest("known", played_ms)
         parts = []
         for method in dict.fromkeys([*([nearest["method"]] if nearest else []), "pbs"]):
             of_method = [row for row in rows if row["method"] == method]
             if of_method:
-                played, posed = (in_range([float(row[column]) for row in of_method]) for column in ("played_share", "cold_share"))
+                played, posed = (in_range([float(row[column]) for row in of_method])
+                                 for column in ("played_share", "cold_share"))
                 parts.append(f"{name(method)} leaves {played} (the same frames alone: {posed})")
         if not parts:
             return []
         frames = in_range_of_counts([int(row["frames"]) for row in rows])
-        return [f"Played along a clip, each frame from the one before, {' and '.join(parts)} within {played_ms:g} ms; {frames} of each "
-                "clip have a reference."]
+        return [f"Played along a clip, each frame from the one before, {' and '.join(parts)} within {played_ms:g} ms; "
+                f"{frames} of each clip have a reference."]
 
     def own(self):
         """{deformer of the user's own: its row with known flesh at the shortest time that it keeps}"""
@@ -271,12 +288,14 @@ class Compared:
         return [self.own_answer(row) for row in self.own().values()]
 
     def own_answer(self, row):
-        """mine leaves 98 % [93, 103] of the error of LBS in 190 ms per frame (40 poses); with at most 10 ms, DQS leaves 69 %."""
+        """mine leaves 98 % [93, 103] of the error of LBS in 190 ms per frame (40 poses); with at most 10 ms, DQS leaves
+        69 %."""
         method, ms = row["method"], float(row["budget_ms"])
         others = [(other, self.row("known", ms, other)) for other in ("dqs", "delta_mush", "pbs")]
         shares = conjoined([f"{name(other)} leaves {percent(of['share'])} %" for other, of in others if of], "and")
-        text = (f"{name(method)} leaves {percent(row['share'])} % [{percent(row['share_low'])}, {percent(row['share_high'])}] of the error "
-                f"of LBS in {figure(float(row['ms']))} ms per frame ({row['poses']} poses)")
+        text = (f"{name(method)} leaves {percent(row['share'])} % [{percent(row['share_low'])}, "
+                f"{percent(row['share_high'])}] of the error of LBS in {figure(float(row['ms']))} ms per frame "
+                f"({row['poses']} poses)")
         if shares:
             text += f"; with at most {min(ms, self.times_ms[-1]):g} ms, {shares}"
         short = [time for time in self.times_ms if time < float(row["ms"])]

@@ -1,7 +1,7 @@
 """The terms of the suite (glossary.toml), and links to them.
 
     for entry in glossary.entries(): ...          # name, slug (GitHub's anchor of the heading), sentence, also
-    text = glossary.linked(text, seen)            # HTML in which the first use of each term that is not in `seen` is a link
+    text = glossary.linked(text, seen)            # HTML in which the first use of each term not in `seen` is a link
 """
 import collections
 import functools
@@ -16,17 +16,21 @@ Entry = collections.namedtuple("Entry", ("name", "slug", "sentence", "also"))
 
 def entries():
     listed = tomllib.loads(pathlib.Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-    return [Entry(name, re.sub(r"[^\w\- ]", "", name.lower()).replace(" ", "-"), of["sentence"], tuple(of.get("also", ())))
+    return [Entry(name, re.sub(r"[^\w\- ]", "", name.lower()).replace(" ", "-"), of["sentence"],
+                  tuple(of.get("also", ())))
             for name, of in listed.items()]
 
 
 @functools.cache
 def uses():
     """The entry of each group of the pattern, and the pattern of all uses; the longest one comes first."""
-    words = sorted(((word, entry) for entry in entries() for word in (entry.name, *entry.also)), key=lambda pair: -len(pair[0]))
+    words = sorted(((word, entry) for entry in entries() for word in (entry.name, *entry.also)),
+                   key=lambda pair: -len(pair[0]))
     first = [f"[{word[0].upper()}{word[0].lower()}]" if word[1].islower() else word[0] for word, _ in words]
-    patterns = [f"({letter}{re.escape(word[1:])}s?)".replace("'", "(?:'|&#x27;|\u2019)") for letter, (word, _) in zip(first, words)]
-    return [entry for _, entry in words], re.compile(rf"(?<![\w.-])(?:{'|'.join(patterns)})(?![\w-])".replace(r"\ ", r"\s+"))
+    patterns = [f"({letter}{re.escape(word[1:])}s?)".replace("'", "(?:'|&#x27;|\u2019)")
+                for letter, (word, _) in zip(first, words)]
+    return [entry for _, entry in words], re.compile(rf"(?<![\w.-])(?:{'|'.join(patterns)})(?![\w-])".replace(
+        r"\ ", r"\s+"))
 
 
 def linked(html_text, seen):

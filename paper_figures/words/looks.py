@@ -1,4 +1,5 @@
-"""The name, colour, marker and line of each deformer, from looks.toml: the same in every figure, on every page and in the viewer.
+"""The name, colour, marker and line of each deformer, from looks.toml: the same in every figure, on every page and in
+the viewer.
 
     look = looks.of("dqs")        # look.name, look.color, look.marker, look.line
 """
@@ -8,7 +9,8 @@ import tomllib
 import zlib
 from dataclasses import dataclass
 
-lines = {"solid": "-", "dashed": (0, (4, 1.5)), "dash-dotted": (0, (5, 1.2, 1, 1.2)), "dotted": (0, (1, 1)), "short-dashed": (0, (3, 1))}
+lines = {"solid": "-", "dashed": (0, (4, 1.5)), "dash-dotted": (0, (5, 1.2, 1, 1.2)), "dotted": (0, (1, 1)),
+         "short-dashed": (0, (3, 1))}
 listed = tomllib.loads((pathlib.Path(__file__).resolve().parents[1] / "looks.toml").read_text(encoding="utf-8"))
 palette = listed.pop("palette")
 # Colours, markers and lines of deformers that are not listed; no listed deformer has such a colour.
@@ -24,8 +26,8 @@ class Look:
 
 
 def of(deformer):
-    """The look of a deformer, by its label or the name of its kind. One that is not listed, such as a user's own, has its label as its name
-    and a look that depends on nothing else."""
+    """The look of a deformer, by its label or the name of its kind. One that is not listed, such as a user's own, has
+    its label as its name and a look that depends on nothing else."""
     if deformer not in listed:
         color, marker, line = own[zlib.crc32(deformer.encode()) % len(own)]
         return Look(deformer, color, marker, lines[line])

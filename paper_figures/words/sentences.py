@@ -1,10 +1,11 @@
-"""Every sentence about a claim, composed from the facts of claims.json. The README, the claims' pages and the report all use these.
+"""Every sentence about a claim, composed from the facts of claims.json. The README, the claims' pages and the report
+all use these.
 
     for claim in sentences.claims_of(results / "claims.json"):
         print(claim["id"], sentences.in_line(claim))
 
-A claim is judged by its cases: 28 of 29 cases hold, share 0.966 [0.822, 0.999]; 0.067 to 1.02, threshold 0.95 or more. In brackets stands
-only the interval of the share; ranges over meshes, frames or orders of projection have these names.
+A claim is judged by its cases: 28 of 29 cases hold, share 0.966 [0.822, 0.999]; 0.067 to 1.02, threshold 0.95 or more.
+In brackets stands only the interval of the share; ranges over meshes, frames or orders of projection have these names.
 """
 import math
 
@@ -25,9 +26,11 @@ most_values = 2  # that are printed, likewise
 
 
 def claims_of(file):
-    """The claims, each with the titles of its quantities; RecordsMissing if the file is missing or has another shape."""
+    """The claims, each with the titles of its quantities; RecordsMissing if the file is missing or has another
+    shape."""
     document = shapes.read(file, shapes.claims)
-    return [claim | {"titles": {name: of["title"] for name, of in document["quantities"].items()}} for claim in document["claims"]]
+    return [claim | {"titles": {name: of["title"] for name, of in document["quantities"].items()}}
+            for claim in document["claims"]]
 
 
 def counts(claims):
@@ -53,7 +56,8 @@ def with_unit(unit):
 
 
 def threshold(low, high):
-    """0.9 to 1.1; 1.05 or more; below 1; above 0; empty without one. A threshold right beside a round number excludes this number."""
+    """0.9 to 1.1; 1.05 or more; below 1; above 0; empty without one. A threshold right beside a round number excludes
+    this number."""
     if low is not None and high is not None:
         text = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
     elif low is not None:
@@ -67,15 +71,18 @@ def threshold(low, high):
 
 def settings_of(of):
     """The settings for which a threshold is, where there are several."""
-    return [case_words.of_field(field, value) for field, value in of.items() if field not in ("low", "high", "quantity")]
+    return [case_words.of_field(field, value)
+            for field, value in of.items() if field not in ("low", "high", "quantity")]
 
 
 def expected(claim):
     """The text of each threshold."""
     if claim["rule"] == "printed":
         return ["each value as the others require"]
-    named = [", ".join(settings_of(of) + ([title(claim, of["quantity"])] if "quantity" in of else [])) for of in claim["thresholds"]]
-    return [": ".join(filter(None, [name, threshold(of["low"], of["high"])])) for name, of in zip(named, claim["thresholds"])]
+    named = [", ".join(settings_of(of) + ([title(claim, of["quantity"])] if "quantity" in of else []))
+             for of in claim["thresholds"]]
+    return [": ".join(filter(None, [name, threshold(of["low"], of["high"])]))
+            for name, of in zip(named, claim["thresholds"])]
 
 
 def shown(case):
@@ -120,7 +127,8 @@ def by_quantity(of):
 def spans(claim, of):
     """From the least to the most of each quantity of a selection."""
     groups = by_quantity(of)
-    return "; ".join(span(cases) if len(groups) == 1 else f"{title(claim, quantity)}: {span(cases)}" for quantity, cases in groups.items())
+    return "; ".join(span(cases) if len(groups) == 1 else f"{title(claim, quantity)}: {span(cases)}"
+                     for quantity, cases in groups.items())
 
 
 def number_of(claim, quantity):
@@ -128,7 +136,8 @@ def number_of(claim, quantity):
 
 
 def numbers(claim):
-    """The range of the cases' numbers for each quantity and each threshold: section radius: 0.067 to 1.02, threshold 0.95 or more."""
+    """The range of the cases' numbers for each quantity and each threshold: section radius: 0.067 to 1.02, threshold
+    0.95 or more."""
     texts = []
     for quantity, cases in by_quantity(claim).items():
         for ends in dict.fromkeys((case["threshold_low"], case["threshold_high"]) for case in cases):
@@ -167,7 +176,8 @@ def ranges(claim):
 
 
 def range_name(claim):
-    """What low and high of a number span; that of a single number has its whole name on record: 95 % range of the fit."""
+    """What low and high of a number span; that of a single number has its whole name on record: 95 % range of the
+    fit."""
     over = "" if claim["rule"] == "single" else "range over "
     return over + claim["range"] if claim["range"] else "range"
 
@@ -192,13 +202,15 @@ def held(of, verb=""):
 
 
 def excluded_cases(of):
-    return [f"{counted(number, 'case')} excluded: {case_words.of_field('excluded', why)}" for why, number in of["excluded_cases"].items()]
+    return [f"{counted(number, 'case')} excluded: {case_words.of_field('excluded', why)}"
+            for why, number in of["excluded_cases"].items()]
 
 
 def by_chance(claim):
     """Where chance decides."""
     decides = claim["verdict"] == "not_shown" or claim["why_inconclusive"] == "chance"
-    return [f"chance alone reaches as many with probability {figure(claim['chance'])}, where less than 0.01 is asked"] if decides else []
+    return ([f"chance alone reaches as many with probability {figure(claim['chance'])}, where less than 0.01 is asked"]
+            if decides else [])
 
 
 def difference(claim):
@@ -207,17 +219,19 @@ def difference(claim):
     if of is None:
         return []
     least, most = (case_words.of_field(of["field"], of[end]) for end in ("least_at", "most_at"))
-    return [f"the share differs most by {case_words.of_field('case_field', of['field'])}: {of['least']:.3g} for {least}, "
-            f"{of['most']:.3g} for {most}"]
+    return [f"the share differs most by {case_words.of_field('case_field', of['field'])}: {of['least']:.3g} for "
+            f"{least}, {of['most']:.3g} for {most}"]
 
 
 def why_inconclusive(claim):
-    """Why the claim is inconclusive or cannot be tested: controls without a record or that misbehave, few cases, or its own reason."""
+    """Why the claim is inconclusive or cannot be tested: controls without a record or that misbehave, few cases, or its
+    own reason."""
     reason = claim["why_inconclusive"]
     if reason == "too_few_cases" and claim["rule"] == "single" and claim["cases"]:
         return [f"{counted(len(claim['cases']), 'number')} are on record where one is expected"]
     if reason == "too_few_cases":
-        return ["no case is on record" if not claim["cases"] else f"only {counted(claim['n'], 'case')}, fewer than five"]
+        return ["no case is on record" if not claim["cases"] else f"only {counted(claim['n'], 'case')}, "
+                                                                  "fewer than five"]
     if reason not in ("control_without_record", "control_misbehaves"):
         return [claim["reason"]] if claim["reason"] else []
     none = [control["name"] for control in claim["controls"] if not control["n"]]
@@ -244,7 +258,8 @@ def facts(claim):
         told = [one_number(claim)] if len(claim["cases"]) == 1 else numbers(claim)
         return [*told, *why_inconclusive(claim), *excluded_scenes(claim)] or ["no record"]
     told = [share(claim), *numbers(claim), *ranges(claim)] if claim["n"] else []
-    told += [*excluded_cases(claim), *by_chance(claim), *difference(claim), *why_inconclusive(claim), *excluded_scenes(claim)]
+    told += [*excluded_cases(claim), *by_chance(claim), *difference(claim), *why_inconclusive(claim),
+             *excluded_scenes(claim)]
     return told or ["no record"]
 
 
@@ -269,14 +284,17 @@ def basis(claim):
     number = between.join(number_of(claim, quantity) for quantity in claim["quantities"])
     thresholds = expected(claim)
     told = [f"The number of a case ({fields}) is the {number}",
-            f"The {'threshold is' if len(thresholds) == 1 else 'thresholds are'} {', '.join(thresholds)} ({claim['source']})"]
+            f"The {'threshold is' if len(thresholds) == 1 else 'thresholds are'} {', '.join(thresholds)} "
+            f"({claim['source']})"]
     if claim["chance"] is not None:
-        told += [f"If each case held with probability q = {figure(claim['q'])}, at least as many would hold by chance with probability "
-                 f"{figure(claim['chance'])}",
+        told += [f"If each case held with probability q = {figure(claim['q'])}, at least as many would hold by chance "
+                 f"with probability {figure(claim['chance'])}",
                  "This q is the share of the negative control, by the rule of succession, or one half"]
     if claim["fixed_at"]:
-        told.append(f"Rule and threshold are of revision {claim['fixed_at'][:12]}" if claim["fixed_at"] == claim["thresholds_fixed_at"] else
-                    f"The threshold is of revision {claim['thresholds_fixed_at'][:12]}, the rule of revision {claim['fixed_at'][:12]}")
+        told.append(f"Rule and threshold are of revision {claim['fixed_at'][:12]}"
+                    if claim["fixed_at"] == claim["thresholds_fixed_at"] else
+                    f"The threshold is of revision {claim['thresholds_fixed_at'][:12]}, the rule of revision "
+                    f"{claim['fixed_at'][:12]}")
     return ". ".join(told) + "."
 
 
@@ -292,7 +310,8 @@ def both_verdicts(claim):
 
 
 def on_held_out_cases(claim):
-    """The verdict on the cases that were recorded after the thresholds were fixed, with the facts behind it, or nothing."""
+    """The verdict on the cases that were recorded after the thresholds were fixed, with the facts behind it, or
+    nothing."""
     later = held_out(claim)
     mended = "" if claim["fixed_at"] == claim["thresholds_fixed_at"] else " and before the rule was mended"
     return [f"On the held-out cases, which were recorded after the thresholds were fixed{mended}, the verdict is "
@@ -305,7 +324,8 @@ def in_words(parts):
 
 
 def without_a_body(claim):
-    """The verdicts that differ if all cases of one body are excluded: one sentence, or none for a claim whose cases have no body."""
+    """The verdicts that differ if all cases of one body are excluded: one sentence, or none for a claim whose cases
+    have no body."""
     if not claim["without_body"]:
         return []
     others = {}
@@ -320,17 +340,19 @@ def without_a_body(claim):
 
 
 def on_other_tets(claim, meshes):
-    """The verdicts on other tets of the human and the limb, of rows of experiments/records/other_tets.csv: one sentence, or none."""
+    """The verdicts on other tets of the human and the limb, of rows of experiments/records/other_tets.csv: one
+    sentence, or none."""
     others = [row for row in meshes if row["claim"] == claim["id"] and row["size"] != "1.00"]
     if not others:
         return []
     verdict = same_or_changed("the verdict", claim["verdict"], [row["verdict"] for row in others])
     later = held_out(claim)
     if later:
-        verdict += ", and " + same_or_changed("that on the held-out cases", later["verdict"], [row["held_out"] for row in others])
+        verdict += ", and " + same_or_changed("that on the held-out cases", later["verdict"],
+                                              [row["held_out"] for row in others])
     sizes = sorted({row["size"] for row in others})
-    return [f"On {len(others)} other tet meshes of the human's and the limb's surfaces, with {' to '.join([sizes[0], sizes[-1]])} times as "
-            f"many vertices, {verdict}"]
+    return [f"On {len(others)} other tet meshes of the human's and the limb's surfaces, "
+            f"with {' to '.join([sizes[0], sizes[-1]])} times as many vertices, {verdict}"]
 
 
 def same_or_changed(what, recorded, verdicts):
@@ -338,8 +360,8 @@ def same_or_changed(what, recorded, verdicts):
     return f"{what} changes: it is {in_words(changes)} of them" if changes else f"{what} is the same"
 
 
-other_tets_head = ["vertices wanted", "human: vertices", "limb: vertices", "verdict", "on the held-out cases", "cases that hold",
-                   "values of human and limb"]
+other_tets_head = ["vertices wanted", "human: vertices", "limb: vertices", "verdict", "on the held-out cases",
+                   "cases that hold", "values of human and limb"]
 
 
 def other_tets_rows(claim, meshes):
@@ -362,10 +384,11 @@ def threshold_ranges(claim):
         settings = settings_of({name: value for name, value in of.items() if name not in ("end", "threshold")})
         what = ", ".join(settings + ([title(claim, of["quantity"])] if "quantity" in of else []))
         low, high = (None if of[end] is None else figure_of_four(of[end]) for end in ("low", "high"))
-        others = f" from {low} to {high}" if low and high else f" from {low} on" if low else f" up to {high}" if high else ""
+        others = (f" from {low} to {high}" if low and high else f" from {low} on" if low else f" up to {high}" if high
+                  else "")
         end = {"low": "lower", "high": "upper"}[of["end"]]
-        texts.append(f"With any {end} threshold{f' of the {what}' if what else ''}{others} in place of {figure_of_four(of['threshold'])}, "
-                     "the verdict is the same")
+        texts.append(f"With any {end} threshold{f' of the {what}' if what else ''}{others} in place of "
+                     f"{figure_of_four(of['threshold'])}, the verdict is the same")
     return texts
 
 
@@ -394,7 +417,8 @@ def named(claim, of):
 
 
 def control_rows(claim):
-    return [[named(claim, of), case_words.of_field("role", of["role"]), held(of), spans(claim, of), "yes" if of["behaves"] else "no"]
+    return [[named(claim, of), case_words.of_field("role", of["role"]), held(of), spans(claim, of),
+             "yes" if of["behaves"] else "no"]
             for of in claim["controls"]]
 
 
@@ -423,8 +447,8 @@ def by_case(claim, of):
 
 
 def disagreements(claim):
-    """One sentence for each order, and for the author's later code, that disagrees with the claim's own reading. Only cases with a number
-    in both are compared, and only if there are at least five."""
+    """One sentence for each order, and for the author's later code, that disagrees with the claim's own reading. Only
+    cases with a number in both are compared, and only if there are at least five."""
     sentences, own = [], by_case(claim, claim) if claim["rule"] == "cases" else {}
     for other in claim["readings"] + [compared for compared in claim["compared"] if compared["name"] == author]:
         pairs = [(own[case], holds) for case, holds in by_case(claim, other).items() if case in own]
@@ -432,6 +456,7 @@ def disagreements(claim):
             continue
         extent_of_own, extent_of_other = (extent(holding) for holding in zip(*pairs))
         if extent_of_own != extent_of_other:
-            sentences.append(f"{other['name'][:1].upper()}{other['name'][1:]} and the claim's own reading disagree: in the {len(pairs)} "
-                             f"cases that both have, the threshold holds {extent_of_other} in the one, {extent_of_own} in the other.")
+            sentences.append(f"{other['name'][:1].upper()}{other['name'][1:]} and the claim's own reading disagree: "
+                             f"in the {len(pairs)} cases that both have, the threshold holds {extent_of_other} in the "
+                             f"one, {extent_of_own} in the other.")
     return sentences

@@ -1,6 +1,6 @@
-"""A checker finds nothing in the project's sources, except what is disabled where it is named, and it does find planted errors: cppcheck
-(suppressions: cmake/cppcheck_suppressions.txt; one that is no longer needed is a finding too) in the C++, shellcheck in the scripts. Only
-`./check --long` searches the C++."""
+"""A checker finds nothing in the project's sources, except what is disabled where it is named, and it does find planted
+errors: cppcheck (suppressions: cmake/cppcheck_suppressions.txt; one that is no longer needed is a finding too) in the
+C++, shellcheck in the scripts. Only `./check --long` searches the C++."""
 import os
 import pathlib
 import re
@@ -31,8 +31,8 @@ class Checker:
 
 
 class Cppcheck(Checker, unittest.TestCase):
-    command = [os.environ.get("PBS_CPPCHECK"), "--std=c++20", "--enable=warning,performance,portability,information", "--quiet",
-               "--error-exitcode=3", "--template={file}:{line}: {id}: {message}", "-I", "."]
+    command = [os.environ.get("PBS_CPPCHECK"), "--std=c++20", "--enable=warning,performance,portability,information",
+               "--quiet", "--error-exitcode=3", "--template={file}:{line}: {id}: {message}", "-I", "."]
     options, found = ["--suppressions-list=cmake/cppcheck_suppressions.txt"], 3
     file, planted = "planted.cpp", """#include <vector>
 int last(const std::vector<int>* values)
@@ -49,7 +49,8 @@ int last(const std::vector<int>* values)
 
     @unittest.skipUnless(os.environ.get("PBS_LONG"), "takes a minute")
     def test_finds_nothing(self):
-        version = subprocess.run([os.environ["PBS_CPPCHECK"], "--version"], capture_output=True, text=True, check=True).stdout.strip()
+        version = subprocess.run([os.environ["PBS_CPPCHECK"], "--version"], capture_output=True, text=True,
+                                 check=True).stdout.strip()
         if version != "Cppcheck 2.10":
             self.skipTest(f"{version} has other false findings than 2.10, for which the suppressions are")
         super().test_finds_nothing()
@@ -67,9 +68,11 @@ class Shellcheck(Checker, unittest.TestCase):
             return re.match(rb"#!.*\b(ba)?sh\b", file.readline(80)) is not None
 
     def sources(self):
-        inside = [path for folder in (".ci", "cmake", "experiments", "paper_figures", "tests") for path in (SOURCE / folder).rglob("*")
+        inside = [path for folder in (".ci", "cmake", "experiments", "paper_figures", "tests")
+                  for path in (SOURCE / folder).rglob("*")
                   if "node_modules" not in path.parts]
-        scripts = {str(path.relative_to(SOURCE)) for path in [*SOURCE.iterdir(), *inside] if path.is_file() and self.is_script(path)}
+        scripts = {str(path.relative_to(SOURCE)) for path in [*SOURCE.iterdir(), *inside] if path.is_file()
+                   and self.is_script(path)}
         self.assertLessEqual({"check", "reproduce", "cmake/setup.sh"}, scripts)
         return sorted(scripts)
 

@@ -1,4 +1,5 @@
-"""The README is short, its picture and its links exist, and so do those of every other page. Reference: the files of the source tree."""
+"""The README is short, its picture and its links exist, and so do those of every other page. Reference: the files of
+the source tree."""
 import os
 import pathlib
 import re
@@ -25,7 +26,8 @@ def prose_of(page):
 
 
 def links_of(page):
-    return [target for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`\n]*`", "", prose_of(page))) if "://" not in target]
+    return [target for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`\n]*`", "", prose_of(page)))
+            if "://" not in target]
 
 
 def anchors_of(page):
@@ -78,7 +80,8 @@ class LinkCheck(unittest.TestCase):
     def test_dead_links_are_found_and_others_are_not(self):
         with tempfile.TemporaryDirectory() as folder:
             page = pathlib.Path(folder, "page.md")
-            page.write_text("# A page: its title\n[a](page.md) [b](#a-page-its-title) [c](page.md#a-page-its-title) [d](.)\n"
+            page.write_text("# A page: its title\n[a](page.md) [b](#a-page-its-title) [c](page.md#a-page-its-title) "
+                            "[d](.)\n"
                             "[e](https://example.org) `[f](none.md)`\n```\n# no heading\n[g](none.md)\n```\n"
                             "[h](none.md) [i](#no-heading) [j](page.md#none) ![k](none.png)\n")
             dead = [link.rpartition(": ")[2] for link in broken_links(page)]

@@ -4,6 +4,7 @@ are kept with six digits."""
 import collections
 import csv
 import gzip
+import itertools
 import math
 import os
 import pathlib
@@ -19,7 +20,8 @@ def table(name):
     file = RECORDS / name
     with file.open(newline="") if file.exists() else gzip.open(f"{file}.gz", "rt", newline="") as stream:
         rows = list(csv.DictReader(stream))
-    return [row for row in rows if any(cell for name, cell in row.items() if name != "run")]  # a run without rows has its name alone
+    # A run without rows has its name alone.
+    return [row for row in rows if any(cell for name, cell in row.items() if name != "run")]
 
 
 def number(cell):
@@ -94,7 +96,8 @@ class Concluded(unittest.TestCase):
 
     def near(self, row, name, value, relative=LAST_DIGITS, absolute=0.0):
         stated = number(row[name])
-        is_near = stated == value or math.isnan(stated) and math.isnan(value) or abs(stated - value) <= relative * abs(value) + absolute
+        is_near = (stated == value or math.isnan(stated) and math.isnan(value)
+                   or abs(stated - value) <= relative * abs(value) + absolute)
         self.assertTrue(is_near, f"{name}: {value}, {row}")
         self.compared += not math.isnan(value)
 
@@ -108,7 +111,8 @@ class Merged(Concluded):
         for file in sorted(RECORDS.glob("*/*.csv")):
             raw = file.parent / "runs" / ("measurements.csv" if file.name == "setup.csv" else file.name)
             if raw.exists():
-                own, of_runs = (collections.Counter(tuple(map(six, (row[name] for name in sorted(row) if name != "run")))
+                own, of_runs = (collections.Counter(tuple(map(six,
+                                                              (row[name] for name in sorted(row) if name != "run")))
                                                     for row in table(path)) for path in (file, raw))
                 self.assertEqual(own, of_runs, file)
                 self.compared += own.total()
@@ -117,10 +121,12 @@ class Merged(Concluded):
 
 class AcrossStudies(Concluded):
     def test_values_that_several_studies_measure_are_the_same(self):
-        parts = indexed((row for row in table("ensemble/runs/parts.csv") if key(row, "k_stretch", "iterations") == ("0.2", "24")), "run")
+        parts = indexed((row for row in table("ensemble/runs/parts.csv")
+                         if key(row, "k_stretch", "iterations") == ("0.2", "24")), "run")
         settings = grouped(table("convergence/runs/rates.csv"), "own_mesh", "order", "precision", "k_stretch", "start")
         paths = indexed(settings["1", "ordered", "f32", "0.2", "lbs"], "run", "pose")
-        for pose, column, of_path in (("twist_90", "error_joint", "error_24"), ("twist_90", "discretisation", "reference_bound"),
+        for pose, column, of_path in (("twist_90", "error_joint", "error_24"),
+                                      ("twist_90", "discretisation", "reference_bound"),
                                       ("bend_60", "discretisation", "reference_bound")):
             path = paths[f"limb_{pose.split('_')[0]}", pose]
             self.near(parts[f"limb_{pose}",], f"{column}_pct", float(path[f"{of_path}_pct"]), 2.1 * ROUNDING)
@@ -199,24 +205,29 @@ class WorkPrecision(Concluded):
             self.rows[row["table"], row["budget_ms"], row["method"]][row["pose"]] = row
 
     def ratios(self, row, stratum):
-        """For each variant, the ratios to the errors of LBS in the poses that have the latter; errors.csv has no other time's."""
+        """For each variant, the ratios to the errors of LBS in the poses that have the latter; errors.csv has no other
+        time's."""
         own, lbs = (self.rows.get((row["table"], row["budget_ms"], method), {}) for method in (row["method"], "lbs"))
         poses = [pose for pose in own if own[pose]["stratum"] == stratum]
         variants = [name for name in next(iter(own.values()), ()) if name.endswith("_pct")]
-        return [[number(own[pose][name]) / float(lbs[pose][name]) for pose in poses if lbs[pose][name]] for name in variants]
+        return [[number(own[pose][name]) / float(lbs[pose][name]) for pose in poses if lbs[pose][name]]
+                for name in variants]
 
     def test_shares_and_profiles_follow_from_the_errors(self):
-        for row in table("work_precision/methods.csv") + table("work_precision/curves.csv") + table("work_precision/profiles.csv"):
+        tables = [table(f"work_precision/{name}.csv") for name in ("methods", "curves", "profiles")]
+        for row in itertools.chain(*tables):
             for stratum, names in self.COLUMNS.items():
                 ratios = self.ratios(row, stratum)
                 shares = [share for share in map(geometric_mean, ratios) if not math.isnan(share)]
                 for name in names if ratios and names[0] in row else ():
-                    self.near(row, name, (min if "low" in name else max if "high" in name else statistics.median)(shares))
+                    self.near(row, name,
+                              (min if "low" in name else max if "high" in name else statistics.median)(shares))
                 if ratios and stratum == "movement" and "poses" in row:
                     counts = [len(of) - sum(map(math.isnan, of)) for of in ratios]
                     self.assertEqual((int(row["poses"]), int(row["fewest_poses"])), (max(counts), min(counts)), row)
                 if ratios and stratum == "movement" and "solved_pct" in row:
-                    solved = [statistics.fmean(ratio <= 0.01 * float(row["target_pct"]) for ratio in of) for of in ratios if of]
+                    solved = [statistics.fmean(ratio <= 0.01 * float(row["target_pct"]) for ratio in of)
+                              for of in ratios if of]
                     self.near(row, "solved_pct", 100.0 * statistics.fmean(solved))
         self.assertGreater(self.compared, 850)
 
@@ -224,7 +235,8 @@ class WorkPrecision(Concluded):
         methods = table("work_precision/methods.csv")
         self.assertEqual({(row["table"], row["budget_ms"], row["method"]) for row in methods}, set(self.rows))
         for row in methods:
-            own = [of for of in self.rows[row["table"], row["budget_ms"], row["method"]].values() if of["stratum"] == "movement"]
+            own = [of for of in self.rows[row["table"], row["budget_ms"], row["method"]].values()
+                   if of["stratum"] == "movement"]
             for name in ("ms", "skin_mm"):
                 self.near(row, name, statistics.median(float(of[name]) for of in own if of[name]))
             ms, budget_ms = float(row["ms"]), float(row["budget_ms"])
@@ -236,17 +248,20 @@ class WorkPrecision(Concluded):
         settings, motion = table("work_precision/methods.csv"), table("work_precision/motion.csv")
         lbs = {row["budget_ms"]: row["setting"] for row in settings if row["method"] == "lbs"}
         for row in motion:
-            of_lbs = played[key(row | {"method": "lbs", "setting": lbs[row["budget_ms"]], "start": "cold"}, *self.PLAYED)]
+            of_lbs = played[key(row | {"method": "lbs", "setting": lbs[row["budget_ms"]], "start": "cold"},
+                                *self.PLAYED)]
             of_lbs = {of["pose"]: number(of["error_joint_pct"]) for of in of_lbs}
             for name, start in (("cold", "cold"), ("played", "frame_before")):
                 own = played[key(row | {"start": start}, *self.PLAYED)]
-                share = geometric_mean(number(of["error_joint_pct"]) / of_lbs[of["pose"]] for of in own if of["pose"] in of_lbs)
+                share = geometric_mean(number(of["error_joint_pct"]) / of_lbs[of["pose"]] for of in own
+                                       if of["pose"] in of_lbs)
                 self.near(row, f"{name}_share", share, 2.1 * ROUNDING)
                 skin_mm = [float(of["skin_mm"]) for of in own if of["skin_mm"]]
                 self.near(row, f"{name}_skin_mm", statistics.fmean(skin_mm) if skin_mm else math.nan, 1.1 * ROUNDING)
                 self.near(row, "frames", sum(bool(of["error_joint_pct"]) for of in own))
             self.near(row, "ms", statistics.median(float(of["ms"]) for of in own), 1.1 * ROUNDING)
-        shown = {(*case[:4], row["budget_ms"]) for row in settings for case in played if key(row, "method", "setting") == case[1:3]}
+        shown = {(*case[:4], row["budget_ms"]) for row in settings for case in played
+                 if key(row, "method", "setting") == case[1:3]}
         self.assertEqual({key(row, *self.PLAYED[:4], "budget_ms") for row in motion}, shown)
         self.assertGreater(self.compared, 1200)
 
@@ -273,15 +288,16 @@ class Volume(Concluded):
 
 
 class Stability(Concluded):
-    """The sweeps of a body with and without the jiggling zone are counted together, as cells.csv does not tell them apart. It has the
-    motion in the last of the ten steps alone, so that a body that does not move there may have moved before."""
+    """The sweeps of a body with and without the jiggling zone are counted together, as cells.csv does not tell them
+    apart. It has the motion in the last of the ten steps alone, so that a body that does not move there may have moved
+    before."""
     SWEEP = ("run", "body", "precision", "factor", "second_factor")
-    MAP = ("factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome", "steps", "last_inverted_tets",
-           "recovery_steps")
+    MAP = ("factor", "value", "unit", "second_factor", "second_value", "second_unit", "precision", "outcome", "steps",
+           "last_inverted_tets", "recovery_steps")
     AT_REST = ("converged",), ("bounded", "inverted")
     COUNTED = {  # the states that certainly count, and those that may
-        "diverged": (("diverged", "not_finite"), ()), "inverted": (("inverted", "inverted, moves"), ()), "at_rest": (("converged",), ()),
-        "in_motion": (("bounded, moves", "inverted, moves"), ("bounded", "inverted")),
+        "diverged": (("diverged", "not_finite"), ()), "inverted": (("inverted", "inverted, moves"), ()),
+        "at_rest": (("converged",), ()), "in_motion": (("bounded, moves", "inverted, moves"), ("bounded", "inverted")),
         "at_rest_in_small_steps": AT_REST, "at_rest_in_large_steps": AT_REST}
 
     def test_shares_are_those_of_the_outcomes(self):
@@ -291,14 +307,16 @@ class Stability(Concluded):
             if cell["outcome"] in ("bounded", "inverted") and float(cell["last_motion_diagonals"]) > 1e-5:
                 cell["outcome"] += ", moves"
         cells = grouped(cells, *self.SWEEP, "deformer")
-        for sweep, rows in grouped(table("stability/runs/measurements.csv"), *self.SWEEP, "deformer", "quantity").items():
+        for sweep, rows in grouped(table("stability/runs/measurements.csv"), *self.SWEEP, "deformer",
+                                   "quantity").items():
             share = sweep[-1].removeprefix("share_of_cells_")
             first, last = 0.05 if "large" in share else 0.0, 0.1 if "small" in share else math.inf
             own = [cell["outcome"] for cell in cells[sweep[:-1]] if first <= float(cell["time_step_s"]) <= last]
             self.assertEqual(sum(int(row["n"]) for row in rows), len(own), sweep)
             certain, possible = (sum(map(own.count, states)) for states in self.COUNTED[share])
             counted = math.fsum(float(row["value"]) * int(row["n"]) for row in rows) - certain
-            self.assertTrue(-LAST_DIGITS <= counted <= possible + LAST_DIGITS, f"{sweep}: {counted} more than {certain}")
+            self.assertTrue(-LAST_DIGITS <= counted <= possible + LAST_DIGITS,
+                            f"{sweep}: {counted} more than {certain}")
             self.compared += possible == 0
         self.assertGreater(self.compared, 500)
 
@@ -308,7 +326,8 @@ class Stability(Concluded):
             low, high = float(row["low"]), float(row["high"])
             self.near(row, "value", held / n)
             if row["quantity"].removeprefix("share_of_cells_") in ("inverted", "in_motion", "at_rest"):
-                for end, is_trivial, counts in ((low, held == 0, range(held, n + 1)), (high, held == n, range(held + 1))):
+                for end, is_trivial, counts in ((low, held == 0, range(held, n + 1)),
+                                                (high, held == n, range(held + 1))):
                     tail = math.fsum(math.comb(n, k) * end ** k * (1.0 - end) ** (n - k) for k in counts)
                     self.assertTrue(end == (held == n) if is_trivial else abs(tail - 0.025) <= LAST_DIGITS, row)
             else:
@@ -324,7 +343,8 @@ class Stability(Concluded):
 
 
 class Convergence(Concluded):
-    """The values on the meshes of about one size: that of the scene's own mesh, and the range. On a ladder each mesh has its own."""
+    """The values on the meshes of about one size: that of the scene's own mesh, and the range. On a ladder each mesh
+    has its own."""
     PATHS = ("run", "pose", "order", "precision", "k_stretch")
 
     def test_values_follow_from_the_paths(self):
@@ -332,13 +352,18 @@ class Convergence(Concluded):
         for row in table("convergence/runs/measurements.csv"):
             is_control = row["deformer"] != "pbs" or row["initial_guess"] in ("lbs", "random")  # which rates.csv lacks
             if not is_control and not row["vertices_to"]:
-                rows, own = indexed(paths[key(row | {"pose": self.pose_of(row)}, *self.PATHS)], "start", "vertices"), six(row["vertices"])
-                meshes = [own, *(mesh for guess, mesh in rows if guess == "lbs" and mesh != own and "ladder" not in row["run"])]
-                values = [self.value(row, rows[row["initial_guess"] or "lbs", mesh], rows["lbs", mesh]) for mesh in meshes]
+                rows, own = indexed(paths[key(row | {"pose": self.pose_of(row)}, *self.PATHS)], "start",
+                                    "vertices"), six(row["vertices"])
+                meshes = [own,
+                          *(mesh for guess, mesh in rows if guess == "lbs" and mesh != own
+                            and "ladder" not in row["run"])]
+                values = [self.value(row, rows[row["initial_guess"] or "lbs", mesh], rows["lbs", mesh])
+                          for mesh in meshes]
                 known = [value for value, _ in values if math.isfinite(value)]
                 lacks = sum(limit is None for _, limit in values)
                 low, high = (0.0, math.inf) if lacks else (min(known), max(known))
-                self.range_near(row, values[0][0], low, high, 2.1 * ROUNDING if "error" in row["quantity"] else LAST_DIGITS)
+                self.range_near(row, values[0][0], low, high,
+                                2.1 * ROUNDING if "error" in row["quantity"] else LAST_DIGITS)
                 self.assertEqual((row["limit"], row["not_reached"]), (values[0][1], str(lacks or "")), row)
         self.assertGreater(self.compared, 8300)
 
@@ -354,7 +379,8 @@ class Convergence(Concluded):
         """A value, and what it bounds; None: there is no value."""
         if row["quantity"].startswith("error"):
             return number(guess["error_24_pct"]) / number(lbs["error_24_pct"]), ""
-        one, other = ((int(of[f"iterations_to_{row['tolerance']}"]), of[f"{row['tolerance']}_reached"] == "1") for of in (guess, lbs))
+        one, other = ((int(of[f"iterations_to_{row['tolerance']}"]), of[f"{row['tolerance']}_reached"] == "1")
+                      for of in (guess, lbs))
         if row["quantity"].startswith("iterations_to_tolerance"):
             return one[0], "" if one[1] else "more_than"
         if not one[1] and not other[1]:
@@ -363,10 +389,13 @@ class Convergence(Concluded):
 
     def test_exponents_are_slopes_along_a_ladder(self):
         rows = table("convergence/runs/measurements.csv")
-        ladder = ("run", "body", "motion", "angle_deg", "pose", "deformer", "order", "precision", "k_stretch", "tolerance", "initial_guess")
-        sizes = grouped((row for row in rows if row["quantity"].startswith("iterations_to") and not row["limit"]), *ladder)
+        ladder = ("run", "body", "motion", "angle_deg", "pose", "deformer", "order", "precision", "k_stretch",
+                  "tolerance", "initial_guess")
+        sizes = grouped((row for row in rows if row["quantity"].startswith("iterations_to") and not row["limit"]),
+                        *ladder)
         for row in (row for row in rows if row["vertices_to"]):
-            points = sorted((float(of["vertices"]), float(of["value"])) for of in sizes[key(row, *ladder)] if float(of["value"]) > 0.0)
+            points = sorted((float(of["vertices"]), float(of["value"])) for of in sizes[key(row, *ladder)]
+                            if float(of["value"]) > 0.0)
             self.range_near(row, *fitted_slope(points, 0.99, 0.0)[0])
             self.assertEqual((points[0][0], points[-1][0]), (float(row["vertices"]), float(row["vertices_to"])))
         self.assertGreater(self.compared, 14)
@@ -386,7 +415,8 @@ def over(one, other, names=("value", "low", "high")):
 
 
 def rank_correlation(x, y):
-    ranks = [[statistics.fmean(k for k, other in enumerate(sorted(values)) if other == value) for value in values] for values in (x, y)]
+    ranks = [[statistics.fmean(k for k, other in enumerate(sorted(values)) if other == value) for value in values]
+             for values in (x, y)]
     return statistics.correlation(*ranks) if all(min(own) < max(own) for own in ranks) else math.nan
 
 
@@ -412,7 +442,8 @@ class Jiggle(Concluded):
         columns["damping_ratio_in_other_readings"] = columns["damping_ratio"]
         for quantity, names in columns.items():
             for row in self.by_quantity[quantity]:
-                if key(row, "deformer", "order", "precision") == ("pbs", "plain", "f64"):  # responses.csv lacks the others
+                # responses.csv lacks the others.
+                if key(row, "deformer", "order", "precision") == ("pbs", "plain", "f64"):
                     response = responses[key(row, *self.SETTING)]
                     self.range_near(row, *(number(response[name]) for name in names), 1.1 * ROUNDING)
         for row in self.by_quantity["frequency_over_reference"]:
@@ -440,11 +471,13 @@ class Jiggle(Concluded):
 
     def test_ratios_and_correlations_over_the_stiffness(self):
         for quantity, of in (("amplitude", "amplitude"), ("frequency", "frequency_hz")):
-            series = [rows for rows in grouped(self.by_quantity[of], *self.SOLVER, "iterations", "time_step_s").values() if len(rows) > 1]
+            series = [rows for rows in grouped(self.by_quantity[of], *self.SOLVER, "iterations", "time_step_s").values()
+                      if len(rows) > 1]
             series = {key(rows[0], *self.SOLVER): sorted(rows, key=self.stiffness) for rows in series}
             names = f"{quantity}_ratio_over_k_stretch", f"rank_correlation_of_{quantity}_and_k_stretch"
             for row in (row for name in names for row in self.by_quantity[name]):
-                papers = {"deformer": "pbs", "order": "plain", "precision": "f64", "masses": "unit"} if quantity == "frequency" else {}
+                papers = {"deformer": "pbs", "order": "plain", "precision": "f64",
+                          "masses": "unit"} if quantity == "frequency" else {}
                 rows = series[key(row | papers, *self.SOLVER)]
                 points = [(self.stiffness(one), float(one["value"])) for one in rows]
                 values = [value for _, value in points]
@@ -500,13 +533,15 @@ class Timing(Concluded):
                 self.near(row, f"{before}frames_per_s", 1e3 / number(row[ms]), 2.1 * ROUNDING)
             if row["vertices_over_table_1"]:
                 bind, stretch = (printed[row["model"], f"{name}_constraints"] for name in ("bind", "stretch"))
-                paper = {"vertices": float(bind["printed"]), "edges": float(stretch["printed"]), "tets": float(stretch["most"]) / 6.0}
+                paper = {"vertices": float(bind["printed"]), "edges": float(stretch["printed"]),
+                         "tets": float(stretch["most"]) / 6.0}
                 for name, counted in paper.items():
                     self.near(row, f"{name}_over_table_1", float(row[name]) / counted, 1.1 * ROUNDING)
         for row in table("timing/runs/measurements.csv"):
             if row["deformer"] == "pbs":
                 own, name = rows[key(row | {"variant": row["order"]}, "run", "variant", "precision")], row["quantity"]
-                ms = [float(own[("total_ms" if "processor" in name else "total_wall_ms" if "frames" in name else name) + end])
+                ms = [float(own[("total_ms" if "processor" in name else "total_wall_ms" if "frames" in name else name)
+                                + end])
                       for end in ("", "_low", "_high")]
                 paper = float(own["paper_frames_per_s"]) if "over" in name else 1.0
                 values = [1e3 / one / paper for one in (ms[0], ms[2], ms[1])] if "frames" in name else ms
@@ -518,7 +553,8 @@ class Timing(Concluded):
         for row in table("timing/real_time.csv"):
             points = sorted((float(of["vertices"]), float(of["total_wall_ms"])) for of in table("timing/timing.csv")
                             if not of["model"] and key(of, "variant", "precision") == key(row, "variant", "precision"))
-            (size, ms), other = next(pair for pair in zip(points, points[1:]) if pair[1][1] >= limit_ms or pair[1] == points[-1])
+            (size, ms), other = next(pair for pair in zip(points, points[1:]) if pair[1][1] >= limit_ms
+                                     or pair[1] == points[-1])
             exponent = math.log(other[1] / ms) / math.log(other[0] / size)
             self.near(row, "vertices", size * (limit_ms / ms) ** (1.0 / exponent))
             self.near(row, "exponent", fitted_slope(points)[0][0])
@@ -548,7 +584,8 @@ class Ambiguity(Concluded):
     @staticmethod
     def holds(bound, value):
         first, _, last = bound.split()
-        return value <= float(first) if last == "less" else float(first) <= value and (last == "more" or value <= float(last))
+        return (value <= float(first) if last == "less" else float(first) <= value
+                and (last == "more" or value <= float(last)))
 
     def test_changes_and_verdicts_follow_from_the_values(self):
         for name in ("ambiguity", "figures"):
@@ -557,7 +594,8 @@ class Ambiguity(Concluded):
                 self.near(row, "change", b - a)
                 if name == "ambiguity":
                     self.near(row, "b_over_a", b / a if a else math.nan)
-                    own = ["" if math.isnan(value) else "yes" if self.holds(row["bound"], value) else "no" for value in (a, b)]
+                    own = ["" if math.isnan(value) else "yes" if self.holds(row["bound"], value) else "no"
+                           for value in (a, b)]
                     self.assertEqual([row["holds_a"], row["holds_b"]], own, row)
                     if all(own):
                         self.assertEqual(row["verdict_flips"], "no" if own[0] == own[1] else "yes", row)
@@ -569,17 +607,20 @@ class Fit(Concluded):
         for row in table("fit/sag.csv"):
             young, dt, edge, density, iterations = (float(row[name]) for name in (
                 "young_pa", "time_step_s", "mean_edge_m", "density_kg_m3", "iterations"))
-            self.near(row, "young_dt2_over_density_edge2_iterations", young * dt ** 2 / density / edge ** 2 / iterations)
+            self.near(row, "young_dt2_over_density_edge2_iterations",
+                      young * dt ** 2 / density / edge ** 2 / iterations)
             self.near(row, "identifiable", float(row["rise"]) >= 0.01)
         self.assertGreater(self.compared, 250)
 
 
 class Ensemble(Concluded):
     def test_the_parts_are_vectors_whose_sum_is_the_error(self):
-        models = indexed((row for row in table("ensemble/runs/attachments.csv") if row["difference_pct"] == "0"), "run", "k_stretch")
+        models = indexed((row for row in table("ensemble/runs/attachments.csv") if row["difference_pct"] == "0"), "run",
+                         "k_stretch")
         for row in table("ensemble/runs/parts.csv"):
             error, solver, model = (float(row[f"{name}_pct"]) for name in ("error_joint", "solver", "model"))
-            self.assertTrue(abs(solver - model) <= error * (1 + 2 * ROUNDING) <= (solver + model) * (1 + 4 * ROUNDING), row)
+            self.assertTrue(abs(solver - model) <= error * (1 + 2 * ROUNDING) <= (solver + model) * (1 + 4 * ROUNDING),
+                            row)
             self.near(models[key(row, "run", "k_stretch")], "model_pct", model)
         self.assertGreater(self.compared, 40)
 
@@ -599,7 +640,8 @@ class Verification(Concluded):
                     self.near(row, "observed_order", order)
                 if row["holds"]:
                     low, high = number(row["low"] or "-inf"), number(row["high"] or "inf")
-                    holds = low <= value <= high and not abs(number(row["observed_order"]) - number(row["expected_order"])) > 0.1
+                    holds = low <= value <= high and not abs(number(row["observed_order"])
+                                                             - number(row["expected_order"])) > 0.1
                     self.assertEqual(row["holds"], "yes" if holds else "no", row)
         self.assertGreater(self.compared, 200)
 

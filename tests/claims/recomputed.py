@@ -1,6 +1,7 @@
-"""Every verdict on the kept records, computed a second time from their tables and from claims.toml: the number of each case, which cases
-count, the share that holds with its interval, q, chance and the verdict. Reference: the rule as the head of claims.toml and the headers in
-analysis/verdicts state it. Nothing is shared with the program or with paper_figures: the standard library reads the files."""
+"""Every verdict on the kept records, computed a second time from their tables and from claims.toml: the number of each
+case, which cases count, the share that holds with its interval, q, chance and the verdict. Reference: the rule as the
+head of claims.toml and the headers in analysis/verdicts state it. Nothing is shared with the program or with
+paper_figures: the standard library reads the files."""
 import csv
 import functools
 import gzip
@@ -45,14 +46,15 @@ def rows_of(study, table):
     file, packed = (RECORDS / study / "runs" / name for name in (table, f"{table}.gz"))
     if not file.exists() and not packed.exists():
         return []
-    with file.open(newline="", encoding="utf-8") if file.exists() else gzip.open(packed, "rt", newline="", encoding="utf-8") as stream:
+    with file.open(newline="", encoding="utf-8") if file.exists() else gzip.open(packed, "rt", newline="",
+                                                                                 encoding="utf-8") as stream:
         rows = [{name: cell for name, cell in row.items() if cell} for row in csv.DictReader(stream)]
     return [row for row in rows if len(row) > 1]  # a run without rows has its name alone
 
 
 def frame_values(study, plan):
-    """What the frames of each run and setting give: their mean loss, mean absolute change and share within 0.5 %. A sweep is no sample of a
-    motion, so each of its frames gives its own loss."""
+    """What the frames of each run and setting give: their mean loss, mean absolute change and share within 0.5 %. A
+    sweep is no sample of a motion, so each of its frames gives its own loss."""
     places = {run["name"]: run for run in plan["runs"]}
     series = {}
     for row in rows_of(study, "metrics.csv"):
@@ -62,15 +64,19 @@ def frame_values(study, plan):
         series.setdefault(setting, []).append(row)
     values = []
     for (run, *_), frames in series.items():
-        settings = {name: frames[0][name] for name in ("deformer", "variant", "order", "precision", "iterations") if name in frames[0]}
+        settings = {name: frames[0][name] for name in ("deformer", "variant", "order", "precision", "iterations")
+                    if name in frames[0]}
         key = places[run].get("of", {}) | settings | {"beside": places[run].get("beside", False)}
         loss = [-float(row["volume_change_pct"]) for row in frames]
         if "angle_deg" in frames[0]:
-            values += [key | {"quantity": "volume_loss_pct", "angle_deg": row["angle_deg"], "value": one} for row, one in zip(frames, loss)]
+            values += [key | {"quantity": "volume_loss_pct", "angle_deg": row["angle_deg"], "value": one}
+                       for row, one in zip(frames, loss)]
             continue
-        means = {"mean_volume_loss_pct": loss, "mean_volume_abs_change_pct": [float(row["volume_abs_change_pct"]) for row in frames],
+        means = {"mean_volume_loss_pct": loss, "mean_volume_abs_change_pct": [float(row["volume_abs_change_pct"])
+                                                                              for row in frames],
                  "share_of_frames_within_half_pct": [abs(one) <= 0.5 for one in loss]}
-        values += [key | {"quantity": name, "value": sum(all_values) / len(frames)} for name, all_values in means.items()]
+        values += [key | {"quantity": name, "value": sum(all_values) / len(frames)}
+                   for name, all_values in means.items()]
     return values
 
 
@@ -83,7 +89,8 @@ def values_of(study):
 def mean(how, values):
     if how == "arithmetic":
         return sum(values) / len(values)
-    if not all(value >= 0 for value in values):  # a value below 0 has no logarithm, and one that is not a number decides nothing
+    # A value below 0 has no logarithm, and one that is not a number decides nothing.
+    if not all(value >= 0 for value in values):
         return math.nan
     return math.exp(sum(map(math.log, values)) / len(values)) if all(values) else 0.0
 
@@ -102,7 +109,8 @@ def is_undecided(threshold, value, limit):
 
 
 class Cases:
-    """The cases of a selection of values: the fields that make a case -> its number, whether it holds and why it does not count."""
+    """The cases of a selection of values: the fields that make a case -> its number, whether it holds and why it does
+    not count."""
 
     def __init__(self, claim, values, selection):
         self.claim, self.values = claim, values
@@ -130,9 +138,11 @@ class Cases:
         for quantity in self.selection["quantities"]:
             mine = [value for value in own if value["quantity"] == quantity]
             base = None if over is None else [value for value in over if value["quantity"] == quantity]
-            parts.append(self.compared(quantity, key, mine, base) if mine else {"value": math.nan, "holds": False, "excluded": None})
+            parts.append(self.compared(quantity, key, mine, base) if mine
+                         else {"value": math.nan, "holds": False, "excluded": None})
         excluded = [part["excluded"] for part in parts if part["excluded"]]
-        return parts[0] | {"holds": all(part["holds"] for part in parts), "excluded": excluded[0] if excluded else None, "parts": parts}
+        return parts[0] | {"holds": all(part["holds"] for part in parts), "excluded": excluded[0] if excluded else None,
+                           "parts": parts}
 
     def compared(self, quantity, key, own, over):
         key = dict(zip(self.claim["case_fields"], key))
@@ -149,7 +159,8 @@ class Cases:
             if not math.isfinite(base) or base == 0:
                 return {"value": numbers[0], "holds": False, "excluded": "nothing_to_compare_with"}
             numbers = [number / base for number in numbers]
-        return {**dict(zip(("value", "low", "high"), numbers)), "threshold": threshold, "holds": lies_within(threshold, numbers[0]),
+        return {**dict(zip(("value", "low", "high"), numbers)), "threshold": threshold,
+                "holds": lies_within(threshold, numbers[0]),
                 "excluded": "censored" if is_unknown or is_undecided(threshold, numbers[0], limit) else None}
 
     def exclude_unseen(self, control):
@@ -221,24 +232,25 @@ def exact_interval(held, n, level=0.95):
 
 
 def bootstrap_ends(bodies):
-    """Between which values the ends of the 95 % range of the share must lie if bodies are drawn with replacement, as many as there are. The
-    quantile at p of N draws lies between those at p - d and p + d of all draws, d = 4 sqrt(p (1 - p) / N), except with a probability of
-    6e-5; the variances of this draw and the program's add up."""
+    """Between which values the ends of the 95 % range of the share must lie if bodies are drawn with replacement, as
+    many as there are. The quantile at p of N draws lies between those at p - d and p + d of all draws, d = 4 sqrt(p (1
+    - p) / N), except with a probability of 6e-5; the variances of this draw and the program's add up."""
     source, drawn = random.Random(SEED), []
     for _ in range(DRAWS):
         chosen = source.choices(bodies, k=len(bodies))
         drawn.append(sum(held for _, held in chosen) / sum(n for n, _ in chosen))
     drawn.sort()
     margin = 4 * math.sqrt(0.025 * 0.975 * (1 / DRAWS + 1 / DRAWS_OF_THE_PROGRAM))
-    return [(drawn[math.floor((p - margin) * (DRAWS - 1))], drawn[math.ceil((p + margin) * (DRAWS - 1))]) for p in (0.025, 0.975)]
+    return [(drawn[math.floor((p - margin) * (DRAWS - 1))], drawn[math.ceil((p + margin) * (DRAWS - 1))])
+            for p in (0.025, 0.975)]
 
 
 class Verdict:
     """The verdict on one claim from the kept records, with the facts that claims.json states."""
 
     def __init__(self, claim, otherwise=None, without_body=None):
-        """otherwise: the verdict on all other values, for the one on the held-out values or without a body: it has the controls that these
-        lack."""
+        """otherwise: the verdict on all other values, for the one on the held-out values or without a body: it has the
+        controls that these lack."""
         self.claim, self.why, self.is_later = claim, "none", otherwise is not None and without_body is None
         self.q = self.chance = None
         plan = json.loads((RECORDS / "plans.json").read_text())[claim["study"]]
@@ -252,7 +264,8 @@ class Verdict:
                 self.controls[i] = otherwise.controls[i]
         self.compared = [self.cases_of(other) for other in claim.get("compared", [])]
         self.printed = [row for row in rows_of(claim["study"], "printed.csv") if row["claim"] == claim["id"]]
-        judged = {"cases": self.by_cases, "single": self.by_range, "printed": self.by_print}  # the other rules name their verdicts
+        # The other rules name their verdicts.
+        judged = {"cases": self.by_cases, "single": self.by_range, "printed": self.by_print}
         is_missing = claim["rule"] != "printed" and "quantities" in claim and self.lacks_a_run(plan)
         self.kind = "not_computable" if is_missing else judged.get(claim["rule"], lambda: claim["rule"])()
 
@@ -280,7 +293,8 @@ class Verdict:
             one.exclude_unseen(unseen[0])
         n, held = self.own.n, self.own.held
         self.q = self.claim.get("no_effect") or max(
-            1 / (n + 2) if control in unseen else (control.held + 1) / (control.n + 2)  # of the cases that count, the former holds in none
+            # An unseen control holds in none of the cases that count.
+            1 / (n + 2) if control in unseen else (control.held + 1) / (control.n + 2)
             for control in self.controls if control.selection["role"] == "negative_control")
         self.chance = tail(held, n, self.q) if n else None
         for control in self.controls:
@@ -351,12 +365,14 @@ class Recomputed(unittest.TestCase):
 
     def assert_same_cases(self, own, cases):
         fields = own.claim["case_fields"]
-        self.assertEqual(sorted(own.cases), sorted(tuple(text(case.get(field, "")) for field in fields) for case in cases))
+        self.assertEqual(sorted(own.cases), sorted(tuple(text(case.get(field, "")) for field in fields)
+                                                   for case in cases))
         for case in cases:
             own_case = own.cases[tuple(text(case.get(field, "")) for field in fields)]
             self.assertEqual((own_case["excluded"], own_case["holds"]), (case["excluded"], case["holds"]), case)
             self.assert_same_number(own_case["value"], case["value"], case)
-            self.assertEqual(len(case.get("parts", [])), len(own_case.get("parts", [])) if len(own_case.get("parts", [])) > 1 else 0, case)
+            self.assertEqual(len(case.get("parts", [])),
+                             len(own_case.get("parts", [])) if len(own_case.get("parts", [])) > 1 else 0, case)
             for part, stated in zip(own_case.get("parts", []), case.get("parts", [])):
                 self.assertEqual(part["holds"], stated["holds"], case)
                 self.assert_same_number(part["value"], stated["value"], case)
@@ -364,7 +380,8 @@ class Recomputed(unittest.TestCase):
     @of_each_claim
     def test_every_claim_and_control_has_cases_on_record(self, verdict, judged):
         self.assertNotEqual(verdict.kind, "not_computable")
-        has_own = verdict.printed if verdict.claim["rule"] == "printed" else verdict.own.n or "quantities" not in verdict.claim
+        has_own = (verdict.printed if verdict.claim["rule"] == "printed" else verdict.own.n
+                   or "quantities" not in verdict.claim)
         own = [] if has_own else ["its own cases"]
         compared = [] if verdict.is_later else verdict.compared
         missing = own + [one.selection["name"] for one in [*verdict.controls, *compared] if one.n == 0]
@@ -396,14 +413,17 @@ class Recomputed(unittest.TestCase):
         if verdict.claim["rule"] != "cases" or not judged["n"]:
             return
         self.assert_near(verdict.own.held / verdict.own.n, judged["share"])
-        exact, stated = exact_interval(verdict.own.held, verdict.own.n), (judged["interval_low"], judged["interval_high"])
+        exact, stated = exact_interval(verdict.own.held, verdict.own.n), (judged["interval_low"],
+                                                                          judged["interval_high"])
         self.assertTrue(0 <= stated[0] <= stated[1] <= 1, stated)
         is_exact = all(math.isclose(one, other, abs_tol=1e-9) for one, other in zip(stated, exact))
         bodies, width = verdict.own.by_body, exact[1] - exact[0]
         if len(bodies) > 1:
             low, high = bootstrap_ends(bodies)
-            is_bootstrap = low[0] <= stated[0] <= low[1] and high[0] <= stated[1] <= high[1] and stated[1] - stated[0] > width
-            self.assertTrue(is_exact and high[0] - low[1] <= width or is_bootstrap, f"{stated}: neither {exact} nor in {low}, {high}")
+            is_bootstrap = (low[0] <= stated[0] <= low[1] and high[0] <= stated[1] <= high[1]
+                            and stated[1] - stated[0] > width)
+            self.assertTrue(is_exact and high[0] - low[1] <= width or is_bootstrap,
+                            f"{stated}: neither {exact} nor in {low}, {high}")
         else:
             self.assertTrue(is_exact, f"{stated} is not {exact}")
 
@@ -447,13 +467,15 @@ class Recomputed(unittest.TestCase):
             if verdict.claim["rule"] != "cases":
                 self.assertEqual(judged["threshold_ranges"], [])
                 continue
-            ends = [(i, end) for i, of in enumerate(verdict.claim["thresholds"]) for end in ("low", "high") if end in of]
+            ends = [(i, end) for i, of in enumerate(verdict.claim["thresholds"])
+                    for end in ("low", "high") if end in of]
             self.assertEqual([of["end"] for of in judged["threshold_ranges"]], [end for _, end in ends])
             for (i, end), of in zip(ends, judged["threshold_ranges"]):
                 with self.subTest(f"{judged['id']} {i} {end}"):
                     self.assertEqual(verdict.claim["thresholds"][i][end], of["threshold"])
                     inside, outside = ends_of(of)
-                    self.assertEqual([kind_with(verdict.claim, i, end, value) for value in inside], [verdict.kind] * len(inside))
+                    self.assertEqual([kind_with(verdict.claim, i, end, value) for value in inside],
+                                     [verdict.kind] * len(inside))
                     for value in outside:
                         self.assertNotEqual(kind_with(verdict.claim, i, end, value), verdict.kind)
 
@@ -465,9 +487,10 @@ def kind_with(claim, place, end, value):
 
 
 def ends_of(of):
-    """Values just within the range and just beyond it: a number holds at the threshold itself. They are 1e-9 away from the ends, as means
-    of both programs agree to this."""
-    below, above = (lambda value: value - 1e-9 * abs(value) or -5e-324), (lambda value: value + 1e-9 * abs(value) or 5e-324)
+    """Values just within the range and just beyond it: a number holds at the threshold itself. They are 1e-9 away from
+    the ends, as means of both programs agree to this."""
+    below, above = (lambda value: value - 1e-9 * abs(value) or -5e-324), (lambda value: value + 1e-9 * abs(value)
+                                                                          or 5e-324)
     inside, outside = [], []
     if of["low"] is not None:
         inside.append(above(of["low"]))

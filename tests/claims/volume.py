@@ -1,12 +1,14 @@
-"""The volume claims C01 and C02 on the limb, as the program measures them: the pose decides, a small signed change hides inverted tets, and
-a broken solver holds at fewer angles. Reference: the bounds of claims.toml against the paper's values, and geometry: blending folds the
-sections of a twist and the crease of a bend. If the volume constraints are dropped, their gradient has the wrong sign or nothing is
-projected, the volume holds at fewer angles. No value here is our own."""
+"""The volume claims C01 and C02 on the limb, as the program measures them: the pose decides, a small signed change
+hides inverted tets, and a broken solver holds at fewer angles. Reference: the bounds of claims.toml against the paper's
+values, and geometry: blending folds the sections of a twist and the crease of a bend. If the volume constraints are
+dropped, their gradient has the wrong sign or nothing is projected, the volume holds at fewer angles. No value here is
+our own."""
 import unittest
 
 import program
 
-WITHOUT_FRAMES = ("--quiet", "--set", "output.frames_every=0", "--set", "reference.name=", "--set", 'deformers.use=["lbs", "pbs"]')
+WITHOUT_FRAMES = ("--quiet", "--set", "output.frames_every=0", "--set", "reference.name=", "--set",
+                  'deformers.use=["lbs", "pbs"]')
 
 
 class LimbTest(program.ProgramTest):
@@ -47,8 +49,8 @@ NOTHING = DROPPED + ("--set", "pbs.k_stretch=0.0", "--set", "pbs.k_bind=0.0")
 class BrokenSolver(LimbTest):
     def held_angle_deg(self, scene, name, *overrides):
         """The angle up to which the volume stays within 0.5 %."""
-        self.succeeds("run", scene, "-o", self.path(name), *WITHOUT_FRAMES, "--set", "motion.frames=10", "--set", "character.vertices=600",
-                      *overrides)
+        self.succeeds("run", scene, "-o", self.path(name), *WITHOUT_FRAMES, "--set", "motion.frames=10", "--set",
+                      "character.vertices=600", *overrides)
         held_deg = 0.0
         for row in self.rows(name, "metrics.csv"):
             if row["deformer"] == "pbs":

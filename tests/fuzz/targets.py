@@ -1,6 +1,6 @@
-"""Runs each fuzz target for PBS_FUZZ_SECONDS (60) from the seeds, past findings and the inputs that earlier runs generated; none may find
-anything. A finding is a file in PBS_FUZZ_FOLDER/NAME, to be copied to tests/fuzz/findings/NAME once it is fixed. Reference: libFuzzer's
-exit status, the sanitizers, and each target's definition of a valid result."""
+"""Runs each fuzz target for PBS_FUZZ_SECONDS (60) from the seeds, past findings and the inputs that earlier runs
+generated; none may find anything. A finding is a file in PBS_FUZZ_FOLDER/NAME, to be copied to tests/fuzz/findings/NAME
+once it is fixed. Reference: libFuzzer's exit status, the sanitizers, and each target's definition of a valid result."""
 import concurrent.futures
 import os
 import pathlib
@@ -19,8 +19,8 @@ LEAST_RUNS_PER_S, LEAST_CHILDREN_PER_S = 20, 5  # shows that it fuzzed at all
 
 
 def fuzz(name):
-    """(runs executed, breakdowns of libraries in child processes, errors); new inputs are kept in the first folder, failing ones next to
-    them."""
+    """(runs executed, breakdowns of libraries in child processes, errors); new inputs are kept in the first folder,
+    failing ones next to them."""
     grown, failed = FOLDER / name / "grown", FOLDER / name
     grown.mkdir(parents=True, exist_ok=True)
     seeds = [folder for folder in (SOURCE / "corpus" / name, SOURCE / "findings" / name) if folder.exists()]
@@ -30,7 +30,8 @@ def fuzz(name):
          "-print_final_stats=1", *words, f"-artifact_prefix={failed}/", grown, *seeds],
         capture_output=True, text=True, errors="replace")
     runs = re.search(r"stat::number_of_executed_units:\s*(\d+)", process.stderr)
-    library = re.search(r"^library: .*, (\d+) ended by a signal, (\d+) at the time limit, (\d+) ended otherwise", process.stderr, re.M)
+    library = re.search(r"^library: .*, (\d+) ended by a signal, (\d+) at the time limit, (\d+) ended otherwise",
+                        process.stderr, re.M)
     broken = sum(int(count) for count in library.groups()) if library else 0
     return int(runs[1]) if runs else 0, broken, "" if process.returncode == 0 else f"{name}: {process.stderr[-3000:]}"
 
@@ -47,7 +48,8 @@ class Targets(unittest.TestCase):
                          note=f"runs: {counts}; assimp and VTK broke down in {broken}, contained by their process")
         self.assertEqual(wrong, [], "\n".join(wrong))
         for name, count in zip(names, runs):
-            self.assertGreater(count, SECONDS * (LEAST_CHILDREN_PER_S if name in IN_CHILDREN else LEAST_RUNS_PER_S), name)
+            self.assertGreater(count, SECONDS * (LEAST_CHILDREN_PER_S if name in IN_CHILDREN else LEAST_RUNS_PER_S),
+                               name)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
-"""Another project finds the installed method, builds with it and bends a bar; a component that is not installed is named.
+"""Another project finds the installed method, builds with it and bends a bar; a component that is not installed is
+named.
 
-Reference: a bar of two halves that fold over each other by 90 degrees loses volume under linear blend skinning (Sec. 4 of the paper), and
-Eq. 11 recovers most of it. The consumer's own cache shows which packages were searched for.
+Reference: a bar of two halves that fold over each other by 90 degrees loses volume under linear blend skinning (Sec. 4
+of the paper), and Eq. 11 recovers most of it. The consumer's own cache shows which packages were searched for.
 """
 import json
 import os
@@ -24,7 +25,8 @@ def setUpModule():
 
 
 def configure(source, build, flags="", installed=None):
-    return installation.configured(source, build, f"-DCMAKE_PREFIX_PATH={installed or prefix}", f"-DCMAKE_CXX_FLAGS={own_flags} {flags}")
+    return installation.configured(source, build, f"-DCMAKE_PREFIX_PATH={installed or prefix}",
+                                   f"-DCMAKE_CXX_FLAGS={own_flags} {flags}")
 
 
 def looked_for(build):
@@ -37,7 +39,8 @@ def asking_for(name, components, version=""):
     source = folder / name
     source.mkdir()
     (source / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(asks LANGUAGES CXX)\n"
-                                           f"find_package(pbs {version} {components})\nmessage(STATUS \"found ${{pbs_FOUND}}\")\n")
+                                           f"find_package(pbs {version} {components})\n"
+                                           "message(STATUS \"found ${pbs_FOUND}\")\n")
     return configure(source, name + "_build")
 
 
@@ -55,18 +58,24 @@ class MethodTest(installation.BuildTest):
 
 
 def conditions(build):
-    """The folders of headers and the definitions with which a build compiles each source of the method, except that of threads."""
+    """The folders of headers and the definitions with which a build compiles each source of the method, except that of
+    threads."""
     commands = json.loads((build / "compile_commands.json").read_text())
-    return {command["file"]: re.findall(r" -(?:I|isystem|D(?!PBS_WITH_THREADS|NDEBUG)) ?(\S+)", command["command"]) for command in commands
-            if re.search(r" -o \S*/pbs_(?:method|kernels)\.dir/", command["command"]) and "cmake_pch" not in command["file"]}
+    return {command["file"]: re.findall(r" -(?:I|isystem|D(?!PBS_WITH_THREADS|NDEBUG)) ?(\S+)", command["command"])
+            for command in commands
+            if re.search(r" -o \S*/pbs_(?:method|kernels)\.dir/", command["command"])
+            and "cmake_pch" not in command["file"]}
 
 
 class WithoutThreads(MethodTest):
     def test_eigen_is_all_that_the_method_needs(self):
-        """Built and run, the method searches for no other package, and the number of threads does not change its result."""
-        off = [f"-DPBS_WITH_{part}=OFF" for part in re.findall(r"option\(PBS_WITH_(\w+)", (SOURCE / "CMakeLists.txt").read_text())]
+        """Built and run, the method searches for no other package, and the number of threads does not change its
+        result."""
+        off = [f"-DPBS_WITH_{part}=OFF" for part in re.findall(r"option\(PBS_WITH_(\w+)",
+                                                               (SOURCE / "CMakeLists.txt").read_text())]
         self.assertIn("-DPBS_WITH_THREADS=OFF", off)
-        off += [] if os.environ.get("PBS_LONG") else ["-DPBS_UNITY_BUILD=OFF"]  # one source is compiled: no precompiled header pays
+        # One source is compiled: no precompiled header pays.
+        off += [] if os.environ.get("PBS_LONG") else ["-DPBS_UNITY_BUILD=OFF"]
         off += [f"-DCMAKE_CXX_FLAGS={own_flags}", "-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG"]  # -O0: the shortest time
         self.succeeds(installation.configured(SOURCE, "alone", *off))
         self.assertEqual(looked_for("alone"), {"Eigen3"})
@@ -76,13 +85,14 @@ class WithoutThreads(MethodTest):
         self.assertEqual(alone, self.expect_bent_bar("consumer"))
 
     def build_alone(self):
-        """`./check --long` builds every source. Otherwise those that depend on threads are built; the others are compiled with the same
-        headers and definitions in the build under test, which has their objects."""
+        """`./check --long` builds every source. Otherwise those that depend on threads are built; the others are
+        compiled with the same headers and definitions in the build under test, which has their objects."""
         if os.environ.get("PBS_LONG"):
             self.succeeds(run(CMAKE, "--build", folder / "alone", "--target", "pbs_method"))
             return
         self.assertEqual(conditions(folder / "alone"), conditions(BUILD))
-        dependent = {file for file in (SOURCE / "pbs").rglob("*.[ch]pp") if re.search("tbb|PBS_WITH_THREADS", file.read_text())}
+        dependent = {file for file in (SOURCE / "pbs").rglob("*.[ch]pp")
+                     if re.search("tbb|PBS_WITH_THREADS", file.read_text())}
         self.assertEqual({file.suffix for file in dependent}, {".cpp"}, "every source depends on such a header")
         objects = [f"pbs/CMakeFiles/pbs_method.dir/{file.relative_to(SOURCE / 'pbs')}.o" for file in dependent]
         self.succeeds(run(CMAKE, "--build", folder / "alone", "--target", *objects))
@@ -93,9 +103,11 @@ class WithoutThreads(MethodTest):
 class Consumer(MethodTest):
     def test_method_in_a_project_of_its_own(self):
         self.expect_bent_bar("consumer")
-        self.assertLessEqual(looked_for("consumer"), {"pbs", "Eigen3", "TBB"}, "the method asks for Eigen, and oneTBB with threads")
+        self.assertLessEqual(looked_for("consumer"), {"pbs", "Eigen3", "TBB"},
+                             "the method asks for Eigen, and oneTBB with threads")
 
-    # An array that is allocated in one part and freed in the other would crash. EIGEN_MAX_ALIGN_BYTES limits only members of fixed size.
+    # An array that is allocated in one part and freed in the other would crash. EIGEN_MAX_ALIGN_BYTES limits only
+    # members of fixed size.
     @unittest.skipUnless(platform.machine() == "x86_64", "the registers of x86-64")
     def test_wider_registers_are_refused(self):
         for build, flags in (("wider", "-mavx"), ("bounded", "-mavx -DEIGEN_MAX_ALIGN_BYTES=16")):
@@ -110,7 +122,8 @@ class Consumer(MethodTest):
     def test_components_and_versions_that_are_not_installed_are_named(self):
         for name, components, version, words in (
                 ("absent", "REQUIRED COMPONENTS method fem", "", "component 'fem' is not installed under"),
-                ("unknown", "REQUIRED COMPONENTS skin", "", "there is no component 'skin': expected one of method, meshes"),
+                ("unknown", "REQUIRED COMPONENTS skin", "", "there is no component 'skin': expected one of "
+                                                            "method, meshes"),
                 ("later", "REQUIRED", "99.0", 'compatible with requested version "99.0"')):
             with self.subTest(name):
                 self.refused(asking_for(name, components, version), words)

@@ -1,5 +1,5 @@
-"""The Debian packages are built, inspected, unpacked elsewhere and run. This takes long: a separate build without this machine's
-instructions.
+"""The Debian packages are built, inspected, unpacked elsewhere and run. This takes long: a separate build without this
+machine's instructions.
 
 Reference: dpkg's own tools, and the packages' contents as users get them.
 """

@@ -28,7 +28,8 @@ class Documentation(unittest.TestCase):
     def test_comments_are_on_the_pages(self):
         for what, page, words in (
                 ("shapes and units", "classpbs_1_1PbsSolver.html", "bind_points are the posed q_i [m], #V x 3"),
-                ("comments behind members", "structpbs_1_1PbsOptions.html", "stop when the largest of the three residuals is below"),
+                ("comments behind members", "structpbs_1_1PbsOptions.html",
+                 "stop when the largest of the three residuals is below"),
                 ("sources", "blend_8hpp.html", "Kavan, Collins, Zara, O'Sullivan"),
                 ("errors", "input__error_8hpp.html", "file, line, field, value and the rule it breaks"),
                 ("main page", "index.html", "Position Based Skinning")):

@@ -18,7 +18,8 @@ unittest.addModuleCleanup(scratch.cleanup)
 def run(*words, timeout=1800, check=False, **options):
     """Like subprocess.run, with text output; at a timeout, the compilers that the command started end with it."""
     words = [str(word) for word in words]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True, **options) as process:
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+                          **options) as process:
         try:
             out, err = process.communicate(timeout=timeout)
         except BaseException:
@@ -58,10 +59,12 @@ class BuildTest(unittest.TestCase):
 
 
 def files_naming(prefix, path):
-    """Installed files that contain that path, without links. The same letters within a longer path or an address do not count."""
+    """Installed files that contain that path, without links. The same letters within a longer path or an address do not
+    count."""
     begins = rb"(?:(?<![\w./)}@*-])|(?<=-[IL])|(?<=file://))"
     letters = os.fsencode(path)
     named = re.compile(begins + re.escape(letters) + rb"(?![\w.-])")
-    contents = ((file, file.read_bytes()) for file in sorted(prefix.rglob("*")) if file.is_file() and not file.is_symlink())
+    contents = ((file, file.read_bytes()) for file in sorted(prefix.rglob("*")) if file.is_file()
+                and not file.is_symlink())
     # The search for the letters alone takes a fiftieth of the time.
     return [str(file.relative_to(prefix)) for file, content in contents if letters in content and named.search(content)]

@@ -1,4 +1,5 @@
-"""The installed program runs in any folder, after a move, and without the source tree: everything it needs is installed with it.
+"""The installed program runs in any folder, after a move, and without the source tree: everything it needs is installed
+with it.
 
 Reference: the folders in the file system, and the fields of the records.
 """
@@ -30,8 +31,8 @@ class InstalledProgram(installation.BuildTest):
         self.assertIn("limb_twist", self.pbskin("list", "scenes").stdout)
 
     def test_a_scene_with_its_modules(self):
-        self.pbskin("run", "limb_twist", "-o", "twist", "--quiet", "--set", "motion.frames=2", "--set", "motion.angle_deg=20",
-                    "--set", "character.vertices=500")
+        self.pbskin("run", "limb_twist", "-o", "twist", "--quiet", "--set", "motion.frames=2", "--set",
+                    "motion.angle_deg=20", "--set", "character.vertices=500")
         record = json.loads((folder / "elsewhere/twist/run.json").read_text())
         self.assertIn("fem", json.dumps(record["scene"]))
 
@@ -55,7 +56,8 @@ class InstalledProgram(installation.BuildTest):
                      "lib/pbskin/libpbskin_native_plain.so", "bin/pbskin-sweep", "share/pbskin/sweeps/Snakefile",
                      "share/pbskin/sweeps/slurm/config.yaml", "share/pbskin/sweeps/examples/limb_bend.toml"):
             self.assertTrue((prefix / name).is_file(), name)
-        left_behind = [str(file) for file in prefix.rglob("*") if file.name in ("node_modules", "__pycache__", "src", "package.json")]
+        left_behind = [str(file) for file in prefix.rglob("*") if file.name in ("node_modules", "__pycache__", "src",
+                                                                                "package.json")]
         self.assertEqual(left_behind, [])
 
 

@@ -1,7 +1,8 @@
-"""Manual pages, manual of scene files and completions: every verb, option and scene key is in them, and the shells accept them.
+"""Manual pages, manual of scene files and completions: every verb, option and scene key is in them, and the shells
+accept them.
 
-Reference: `pbskin --help` and `pbskin VERB --help`, which CLI11 writes, not the description from which the pages were written; the schema's
-own answer to an unknown key; mandoc, a reader of manual pages; and bash and zsh themselves.
+Reference: `pbskin --help` and `pbskin VERB --help`, which CLI11 writes, not the description from which the pages were
+written; the schema's own answer to an unknown key; mandoc, a reader of manual pages; and bash and zsh themselves.
 """
 import os
 import re
@@ -62,8 +63,10 @@ class ManPage(unittest.TestCase):
 class SceneManual(unittest.TestCase):
     def rows(self):
         """Table -> keys of the installed manual."""
-        sections = re.split(r"^## ", (SOURCE / "experiments/scene/manual.md").read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]
-        return {section.split("\n")[0].strip("[]"): re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE) for section in sections}
+        sections = re.split(r"^## ", (SOURCE / "experiments/scene/manual.md").read_text(encoding="utf-8"),
+                            flags=re.MULTILINE)[1:]
+        return {section.split("\n")[0].strip("[]"): re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE)
+                for section in sections}
 
     def test_the_committed_manual_is_current(self):
         self.assertEqual((SOURCE / "experiments/scene/manual.md").read_text(encoding="utf-8"),
@@ -71,7 +74,8 @@ class SceneManual(unittest.TestCase):
                          f"cp {pages}/scene_manual.md experiments/scene/manual.md")
 
     def test_the_program_explains_every_key_of_it(self):
-        keys = [key if table == "Top level" else f"{table}.{key}" for table, names in self.rows().items() for key in names]
+        keys = [key if table == "Top level" else f"{table}.{key}" for table, names in self.rows().items()
+                for key in names]
         self.assertGreater(len(keys), 50)
         for table in ("pbs", "fem", "output"):
             explained = re.findall(r"^(\S+) \(scene key\)", run(PBSKIN, "explain", table).stdout, re.MULTILINE)
@@ -114,7 +118,8 @@ class Zsh(unittest.TestCase):
                 self.assertRegex(line, rf"'\*?{re.escape(name)}\[", f"{verb} {name}")
 
     def test_it_is_loaded_as_the_completion_of_pbskin(self):
-        script = f"fpath=({pages} $fpath); autoload -Uz compinit; compinit -u -D; autoload +X _pbskin; print -r -- $_comps[pbskin]"
+        script = (f"fpath=({pages} $fpath); autoload -Uz compinit; compinit -u -D; autoload +X _pbskin; print -r -- "
+                  "$_comps[pbskin]")
         loaded = subprocess.run(["zsh", "-f", "-c", script], capture_output=True, text=True, timeout=60)
         self.assertEqual((loaded.stdout.strip(), loaded.stderr), ("_pbskin", ""))
 

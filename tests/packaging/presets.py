@@ -1,4 +1,5 @@
-"""./check builds and tests with the preset ci, and ./check is what continuous integration runs. Reference: the files themselves."""
+"""./check builds and tests with the preset ci, and ./check is what continuous integration runs. Reference: the files
+themselves."""
 import json
 import os
 import pathlib
@@ -15,7 +16,8 @@ def text(name):
 class Presets(unittest.TestCase):
     def setUp(self):
         presets = json.loads(text("CMakePresets.json"))
-        self.steps = {flow["name"]: [(step["type"], step["name"]) for step in flow["steps"]] for flow in presets["workflowPresets"]}
+        self.steps = {flow["name"]: [(step["type"], step["name"]) for step in flow["steps"]]
+                      for flow in presets["workflowPresets"]}
         self.configured = {preset["name"]: preset for preset in presets["configurePresets"]}
         self.built = {preset["name"]: preset for preset in presets["buildPresets"]}
         self.tested = {preset["name"] for preset in presets["testPresets"]}

@@ -1,11 +1,13 @@
-"""The own mesh of the scenes' README: its commands end as it states, and its scene is as short as it states. Reference: its text."""
+"""The own mesh of the scenes' README: its commands end as it states, and its scene is as short as it states. Reference:
+its text."""
 import os
 import re
 import unittest
 
 from installation import BUILD, SOURCE, folder, run
 
-section = (SOURCE / "experiments/scenes/README.md").read_text(encoding="utf-8").split("\n## Use your own mesh\n")[1].split("\n## ")[0]
+section = (SOURCE / "experiments/scenes/README.md").read_text(encoding="utf-8").split("\n## Use your "
+                                                                                      "own mesh\n")[1].split("\n## ")[0]
 environment = {**os.environ, "PATH": f"{BUILD / 'bin'}:{os.environ['PATH']}"}
 
 
@@ -15,7 +17,8 @@ def block(language):
 
 def ends_of(output):
     """Deformer -> the first and last of its volume change [%], as `run` prints it."""
-    return {name: (float(low), float(high)) for name, low, high in re.findall(r"(\w+)\s+volume change\s+(\S+) to\s+(\S+) %", output)}
+    return {name: (float(low), float(high))
+            for name, low, high in re.findall(r"(\w+)\s+volume change\s+(\S+) to\s+(\S+) %", output)}
 
 
 class OwnMesh(unittest.TestCase):
@@ -32,17 +35,19 @@ class OwnMesh(unittest.TestCase):
         stated, found = ends_of(section), ends_of(self.finished.stdout + self.finished.stderr)
         self.assertEqual(sorted(stated), ["lbs", "pbs"])
         for deformer, ends in stated.items():
-            # Another CGAL makes other tets. PBS leaves about a hundredth of the loss, and this remainder changes by up to a third.
+            # Another CGAL makes other tets. PBS leaves about a hundredth of the loss, and this remainder changes by up
+            # to a third.
             self.assertAlmostEqual(ends[0], found[deformer][0], delta={"lbs": 0.1, "pbs": 0.5}[deformer] * abs(ends[0]))
 
     def test_a_bound_that_does_not_hold_is_exit_status_1(self):
-        measured = run("pbskin", "measure", "run/frames/lbs_000000.vtu", "run/frames/lbs_%06d.vtu", "--max-volume-change", "0.5",
-                       env=environment, cwd=folder / "results/arm")
+        measured = run("pbskin", "measure", "run/frames/lbs_000000.vtu", "run/frames/lbs_%06d.vtu",
+                       "--max-volume-change", "0.5", env=environment, cwd=folder / "results/arm")
         self.assertEqual(measured.returncode, 1, measured.stderr)
 
     def test_the_scene_is_short(self):
         stated = int(re.search(r"a scene of (\d+) lines", section)[1])
-        self.assertEqual(stated, len((SOURCE / "experiments/scenes/arm/arm.toml").read_text(encoding="utf-8").splitlines()))
+        self.assertEqual(stated,
+                         len((SOURCE / "experiments/scenes/arm/arm.toml").read_text(encoding="utf-8").splitlines()))
 
 
 if __name__ == "__main__":

@@ -1,10 +1,11 @@
-"""The decisions between pairs of methods follow from the errors that a study recorded. This is a second computation of them, which
-needs numpy and shares no code with the program. Reference: the rules in analysis/statistics/paired_comparison.hpp.
+"""The decisions between pairs of methods follow from the errors that a study recorded. This is a second computation of
+them, which needs numpy and shares no code with the program. Reference: the rules in
+analysis/statistics/paired_comparison.hpp.
 
-    decisions.py FOLDER        the attacks, then errors.csv, references.csv, pairs.csv and decisions.csv of the study's folder, or of
-                               work_precision in a folder of studies
-    decisions.py --self-test   the attacks alone: tables that this script makes, with exchanged labels, a member that is not known, or
-                               changed results
+    decisions.py FOLDER        the attacks, then errors.csv, references.csv, pairs.csv and decisions.csv of the
+                               study's folder, or of work_precision in a folder of studies
+    decisions.py --self-test   the attacks alone: tables that this script makes, with exchanged labels, a member that
+                               is not known, or changed results
     decisions.py               the attacks, then the kept records if they have these tables
 """
 import argparse
@@ -57,7 +58,8 @@ def sign_test(wins, losses):
 
 
 def holm(p):
-    """The largest product, over all smaller or equal p, of such a p with the number of those that are not smaller than it."""
+    """The largest product, over all smaller or equal p, of such a p with the number of those that are not smaller than
+    it."""
     ascending = sorted(p)
     products = (smaller * (len(p) - bisect.bisect_left(ascending, smaller)) for smaller in ascending)
     largest = dict(zip(ascending, itertools.accumulate(products, max)))
@@ -83,9 +85,9 @@ def ends(means):
 
 
 def is_quantile(end, means, sign=1):
-    """Whether a fortieth of the means lies below the end, or above it (sign -1). The difference of two such shares of 2,000 replicates
-    has the standard deviation sqrt(2 0.025 0.975 / 2000) = 0.005, four of which are allowed. The means of few bodies that lie far apart
-    have gaps, in which an end is not determined more closely."""
+    """Whether a fortieth of the means lies below the end, or above it (sign -1). The difference of two such shares of
+    2,000 replicates has the standard deviation sqrt(2 0.025 0.975 / 2000) = 0.005, four of which are allowed. The means
+    of few bodies that lie far apart have gaps, in which an end is not determined more closely."""
     below = sum(sign * (mean - math.log(end)) < -PRECISION for mean in means)
     not_above = sum(sign * (mean - math.log(end)) < PRECISION for mean in means)
     return below <= 0.045 * REPLICATES and not_above >= 0.005 * REPLICATES
@@ -93,11 +95,13 @@ def is_quantile(end, means, sign=1):
 
 @functools.cache
 def replicates(bodies):
-    """Draws bodies with replacement, and poses in each of them, with another generator and seed than those of the record. Returns how often
-    each replicate has each pose, REPLICATES x #poses. bodies: the poses of each body."""
+    """Draws bodies with replacement, and poses in each of them, with another generator and seed than those of the
+    record. Returns how often each replicate has each pose, REPLICATES x #poses. bodies: the poses of each body."""
     draw = random.Random(1).choices
-    drawn = ([pose for body in draw(bodies, k=len(bodies)) for pose in draw(body, k=len(body))] for _ in range(REPLICATES))
-    return numpy.array([[counted[pose] for body in bodies for pose in body] for counted in map(collections.Counter, drawn)])
+    drawn = ([pose for body in draw(bodies, k=len(bodies)) for pose in draw(body, k=len(body))]
+             for _ in range(REPLICATES))
+    return numpy.array([[counted[pose] for body in bodies for pose in body]
+                        for counted in map(collections.Counter, drawn)])
 
 
 @functools.cache
@@ -113,7 +117,8 @@ class Comparison:
     def __init__(self, errors, own_errors, body_of, pairs):
         """errors: {method: {member: {pose: number}}}; own_errors: {member: {pose: number}}; body_of: {pose: body}."""
         self.body_of = body_of
-        self.pairs = {(a, b): {name: compared(errors[a][name], errors[b][name], u) for name, u in own_errors.items()} for a, b in pairs}
+        self.pairs = {(a, b): {name: compared(errors[a][name], errors[b][name], u) for name, u in own_errors.items()}
+                      for a, b in pairs}
         for name in own_errors:
             members = [of_pair[name] for of_pair in self.pairs.values()]
             for member, adjusted in zip(members, holm([member.p for member in members])):
@@ -135,23 +140,28 @@ def is_close(low, high, slack):
 
 
 def is_level(members, range_of, slack=0.0):
-    """range_of: Member -> the ends of its range; called only where the ratio itself is close to 1, since a range contains its ratio."""
+    """range_of: Member -> the ends of its range; called only where the ratio itself is close to 1, since a range
+    contains its ratio."""
     return bool(members) and all(member.ties / len(member.log_ratio) >= TIED_SHARE or
-                                 (is_close(member.ratio, member.ratio, slack) and is_close(*range_of(member), slack)) for member in members)
+                                 (is_close(member.ratio, member.ratio, slack) and is_close(*range_of(member), slack))
+                                 for member in members)
 
 
 def decision(members, level):
     """members: those with a usable pose."""
-    directions = {0 if member.p_holm >= SIGNIFICANCE else 1 if member.wins > member.losses else -1 for member in members}
+    directions = {0 if member.p_holm >= SIGNIFICANCE else 1 if member.wins > member.losses else -1
+                  for member in members}
     if level:
         return "level"
-    return {(1,): "first_is_nearer", (-1,): "second_is_nearer"}.get(tuple(directions), "depends" if {1, -1} <= directions else "open")
+    return {(1,): "first_is_nearer", (-1,): "second_is_nearer"}.get(tuple(directions),
+                                                                    "depends" if {1, -1} <= directions else "open")
 
 
 # The tables of a study.
 
 def read(folder):
-    return {name: list(csv.DictReader((folder / f"{name}.csv").read_text(encoding="utf-8").splitlines())) for name in TABLES}
+    return {name: list(csv.DictReader((folder / f"{name}.csv").read_text(encoding="utf-8").splitlines()))
+            for name in TABLES}
 
 
 class Study:
@@ -168,8 +178,10 @@ class Study:
             if row["stratum"] == "movement":
                 by_member = self.errors[self.key(row)].setdefault(row["method"], {name: {} for name in self.members})
                 for name in self.members:
-                    if row["pose"] not in self.body_of or row["pose"] in by_member[name] or row["body"] != self.body_of[row["pose"]]:
-                        raise ValueError(f"errors.csv: {row['method']}, {row['pose']}: not a pose of references.csv, or twice")
+                    if (row["pose"] not in self.body_of or row["pose"] in by_member[name]
+                        or row["body"] != self.body_of[row["pose"]]):
+                        raise ValueError(f"errors.csv: {row['method']}, {row['pose']}: not a pose of references.csv, "
+                                         "or twice")
                     by_member[name][row["pose"]] = number(row[f"{name}_pct"])
         self.pairs, self.decisions = collections.defaultdict(dict), collections.defaultdict(dict)
         for row in tables["pairs"]:
@@ -188,7 +200,8 @@ class Study:
 
     def comparison(self, key, pairs, without_body=""):
         kept = {pose: body for pose, body in self.body_of.items() if body != without_body}
-        own_errors = {name: {pose: u for pose, u in by_pose.items() if pose in kept} for name, by_pose in self.own_errors.items()}
+        own_errors = {name: {pose: u for pose, u in by_pose.items() if pose in kept}
+                      for name, by_pose in self.own_errors.items()}
         return Comparison(self.errors[key], own_errors, kept, pairs)
 
 
@@ -197,7 +210,8 @@ def differences(tables):
     study = Study(tables)
     compared_keys = {key for key, methods in study.errors.items() if len(methods) > 1}
     if not compared_keys == set(study.pairs) == set(study.decisions):
-        return [f"errors.csv has {sorted(compared_keys)}, pairs.csv {sorted(study.pairs)}, decisions.csv {sorted(study.decisions)}"]
+        return [f"errors.csv has {sorted(compared_keys)}, pairs.csv {sorted(study.pairs)}, decisions.csv "
+                f"{sorted(study.decisions)}"]
     return [f"{table}, {budget_ms:g} ms: {line}" for table, budget_ms in sorted(compared_keys)
             for line in differences_of_table(study, (table, budget_ms))]
 
@@ -211,7 +225,8 @@ def differences_of_table(study, key):
     if set(study.decisions[key]) != {(body, *pair) for body in left_out for pair in pairs}:
         return ["decisions.csv does not have each pair with all bodies and without each of them"]
     comparison = study.comparison(key, pairs)
-    lines = [f"{pair} on {name}: {line}" for pair, members in comparison.pairs.items() for name, member in members.items()
+    lines = [f"{pair} on {name}: {line}" for pair, members in comparison.pairs.items()
+             for name, member in members.items()
              for line in differences_of_member(comparison, member, study.pairs[key].get((*pair, name)))]
     for body in left_out:
         lines += differences_of_decisions(study, key, pairs, body)
@@ -242,7 +257,8 @@ def differences_of_member(comparison, member, row):
 
 
 def differences_of_decisions(study, key, pairs, without_body):
-    """With all bodies the ranges are those of pairs.csv. Without one they are drawn here, and `level` may differ near its thresholds."""
+    """With all bodies the ranges are those of pairs.csv. Without one they are drawn here, and `level` may differ near
+    its thresholds."""
     lines, comparison = [], study.comparison(key, pairs, without_body)
     for pair in pairs:
         usable = {name: member for name, member in comparison.pairs[pair].items() if member.log_ratio}
@@ -254,11 +270,13 @@ def differences_of_decisions(study, key, pairs, without_body):
             stated = {id(member): study.pairs[key].get((*pair, name)) for name, member in usable.items()}
             if None in stated.values():
                 continue  # reported above
-            levels = {is_level(members, lambda member: [number(stated[id(member)][end]) for end in ("ratio_low", "ratio_high")])}
+            levels = {is_level(members, lambda member: [number(stated[id(member)][end])
+                                                        for end in ("ratio_low", "ratio_high")])}
         own = {decision(members, level) for level in levels}
         row = study.decisions[key][without_body, *pair]
         if row["decision"] not in own:
-            lines.append(f"{pair} without {without_body or 'no body'}: {row['decision']}, recomputed {' or '.join(sorted(own))}")
+            lines.append(f"{pair} without {without_body or 'no body'}: {row['decision']}, "
+                         f"recomputed {' or '.join(sorted(own))}")
     return lines
 
 
@@ -274,7 +292,8 @@ class Recorded(unittest.TestCase):
 class Steps(unittest.TestCase):
     """Values by hand."""
     def test_sign_test_is_exact(self):
-        self.assertEqual([sign_test(*counts) for counts in ((8, 0), (1, 7), (5, 0), (4, 4), (0, 0))], [2 / 256, 18 / 256, 2 / 32, 1.0, 1.0])
+        self.assertEqual([sign_test(*counts) for counts in ((8, 0), (1, 7), (5, 0), (4, 4), (0, 0))],
+                         [2 / 256, 18 / 256, 2 / 32, 1.0, 1.0])
 
     def test_holm_multiplies_the_smallest_most(self):
         for own, expected in zip(holm([0.01, 0.04, 0.03, 0.005]), [0.03, 0.06, 0.06, 0.02]):
@@ -288,17 +307,20 @@ class Steps(unittest.TestCase):
         self.assertAlmostEqual(member.ratio, (3 * 1.5 * 0.75) ** (1 / 3), 15)
 
     def test_level_holds_for_reciprocals(self):
-        for low, high, close in ((0.905, 0.99, False), (1 / 0.99, 1 / 0.905, False), (0.915, 1.09, True), (0.915, 1.12, False)):
+        for low, high, close in ((0.905, 0.99, False), (1 / 0.99, 1 / 0.905, False), (0.915, 1.09, True),
+                                 (0.915, 1.12, False)):
             self.assertEqual(is_close(low, high, 0.0), close, (low, high))
 
 
-SYNTHETIC = {"near": (1.0, 1.0, 1.0), "same": (1.02, 1.02, 1.02), "far": (3.0, 3.0, 3.0), "mixed": (0.4, 1.0, 2.5)}  # by member
+# The errors by member.
+SYNTHETIC = {"near": (1.0, 1.0, 1.0), "same": (1.02, 1.02, 1.02), "far": (3.0, 3.0, 3.0), "mixed": (0.4, 1.0, 2.5)}
 MEMBERS = ("smooth", "nu_0.3", "capsules")
 
 
 def synthetic(exchanged=lambda index: False, unknown_member=None):
-    """Tables of four methods, whose errors scatter about those of the poses: errors.csv and references.csv, with the other two recomputed.
-    The errors of "near" and "far" are exchanged in some poses. The deep folds have the opposite errors and must not take part."""
+    """Tables of four methods, whose errors scatter about those of the poses: errors.csv and references.csv, with the
+    other two recomputed. The errors of "near" and "far" are exchanged in some poses. The deep folds have the opposite
+    errors and must not take part."""
     generator = random.Random(7)
     tables = {name: [] for name in TABLES}
     for index in range(48):
@@ -313,7 +335,8 @@ def synthetic(exchanged=lambda index: False, unknown_member=None):
             scatter = 0.05 if method in ("same", "near") else 0.3
             cells = {f"{name}_pct": repr(size[name] * SYNTHETIC[source][m] * math.exp(generator.gauss(0, scatter)))
                      for m, name in enumerate(MEMBERS)}
-            tables["errors"].append({"table": "known", "budget_ms": "1", "method": method, **pose, "ms": "0.5", "skin_mm": "1", **cells})
+            tables["errors"].append({"table": "known", "budget_ms": "1", "method": method, **pose, "ms": "0.5",
+                                     "skin_mm": "1", **cells})
     return with_results(tables)
 
 
@@ -326,17 +349,21 @@ def with_results(tables):
             names = {"table": "known", "budget_ms": "1", "first": first, "second": second}
             members = comparison.pairs[first, second]
             usable = [member for member in members.values() if member.log_ratio]
-            tables["decisions"].append({**names, "without_body": body, "decision": decision(usable, is_level(usable, comparison.range_of))})
+            tables["decisions"].append({**names, "without_body": body,
+                                        "decision": decision(usable, is_level(usable, comparison.range_of))})
             for name, member in members.items() if not body else ():
                 low, high = map(repr, comparison.range_of(member)) if member.log_ratio else ("", "")
                 tables["pairs"].append({**names, "member": name,
-                                        **{cell: repr(getattr(member, cell)) for cell in ("wins", "ties", "losses", "p", "p_holm")},
-                                        "ratio": repr(member.ratio) if member.log_ratio else "", "ratio_low": low, "ratio_high": high})
+                                        **{cell: repr(getattr(member, cell))
+                                           for cell in ("wins", "ties", "losses", "p", "p_holm")},
+                                        "ratio": repr(member.ratio) if member.log_ratio else "", "ratio_low": low,
+                                        "ratio_high": high})
     return tables
 
 
 def decisions_of(tables, without_body=""):
-    return {(row["first"], row["second"]): row["decision"] for row in tables["decisions"] if row["without_body"] == without_body}
+    return {(row["first"], row["second"]): row["decision"] for row in tables["decisions"]
+            if row["without_body"] == without_body}
 
 
 class Attacks(unittest.TestCase):
@@ -345,8 +372,8 @@ class Attacks(unittest.TestCase):
         tables = synthetic()
         self.assertEqual(differences(tables), [])
         self.assertEqual(decisions_of(tables), {
-            ("near", "same"): "level", ("near", "far"): "first_is_nearer", ("near", "mixed"): "depends", ("same", "far"): "first_is_nearer",
-            ("same", "mixed"): "depends", ("far", "mixed"): "open"})
+            ("near", "same"): "level", ("near", "far"): "first_is_nearer", ("near", "mixed"): "depends",
+            ("same", "far"): "first_is_nearer", ("same", "mixed"): "depends", ("far", "mixed"): "open"})
         self.assertEqual(decisions_of(tables, "body_2"), decisions_of(tables))
 
     def test_labels_exchanged_in_half_of_the_poses_leave_the_answer_open(self):
@@ -389,7 +416,8 @@ class Attacks(unittest.TestCase):
 
     def test_a_changed_decision_without_a_body_is_found(self):
         tables = synthetic()
-        row = next(row for row in tables["decisions"] if row["without_body"] == "body_1" and row["decision"] == "depends")
+        row = next(row for row in tables["decisions"] if row["without_body"] == "body_1"
+                   and row["decision"] == "depends")
         row["decision"] = "level"
         self.assertEqual(len(differences(tables)), 1)
 

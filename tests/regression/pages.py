@@ -1,8 +1,9 @@
-"""The README and the pages state what the kept records have, and the verdicts of the kept records are those on record by the thresholds of
-claims.toml: they change only with new records or another rule. Every study and every claim has its page, with the required sections, whose
-generated part is current. `pbskin explain` prints each page, and those of deformers. README, page, report, `pbskin explain` and the tables
-of the program have the verdicts and numbers of claims.json. The files and columns that the pages quote are those of the kept records.
-Reference: the kept records, claims.toml and figures.toml."""
+"""The README and the pages state what the kept records have, and the verdicts of the kept records are those on record
+by the thresholds of claims.toml: they change only with new records or another rule. Every study and every claim has its
+page, with the required sections, whose generated part is current. `pbskin explain` prints each page, and those of
+deformers. README, page, report, `pbskin explain` and the tables of the program have the verdicts and numbers of
+claims.json. The files and columns that the pages quote are those of the kept records. Reference: the kept records,
+claims.toml and figures.toml."""
 import csv
 import fnmatch
 import functools
@@ -20,7 +21,8 @@ import program
 
 SOURCE = pathlib.Path(program.SOURCE)
 sys.path.insert(0, str(SOURCE / "paper_figures"))
-from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables  # noqa: E402
+# noqa: E402.
+from readme import findings as readme_findings, pages as readme_pages, part as readme_part, tables as readme_tables
 from records import kept  # noqa: E402
 from report import verdicts as report_verdicts  # noqa: E402
 from words import sentences  # noqa: E402
@@ -50,12 +52,14 @@ def quoted_columns(text):
 def kept_tables(study, file):
     """The kept tables that a name matches; capital letters in it match any text."""
     pattern = re.sub(r"[A-Z][A-Z_]+", "*", file)
-    return [table for table in (KEPT / study).rglob("*.csv") if fnmatch.fnmatch(str(table.relative_to(KEPT / study)), pattern)]
+    return [table for table in (KEPT / study).rglob("*.csv") if fnmatch.fnmatch(str(table.relative_to(KEPT / study)),
+                                                                                pattern)]
 
 
 def told(value):
     """A pattern of the number in three digits, of thousands in all of them; a censored one may have a sign in front."""
-    digits = "|".join({f"{value:.3g}".replace("+", r"\+")} | ({f"{value:.0f}", f"{value:,.0f}"} if 1000 <= abs(value) < 1e6 else set()))
+    digits = "|".join({f"{value:.3g}".replace("+", r"\+")} | ({f"{value:.0f}", f"{value:,.0f}"}
+                                                              if 1000 <= abs(value) < 1e6 else set()))
     return rf"(?:(?:[<>]=?|[\u2264\u2265]) )?(?:{digits})(?![\d.,]*\d)"
 
 
@@ -76,7 +80,8 @@ def numbers_of(claim):
 
 def range_of(claim):
     """A pattern of the range by which a single number is judged."""
-    return [rf"\({claim['range']}: {told(case['low'])} to {told(case['high'])}\)" for case in claim["cases"] if claim["rule"] == "single"]
+    return [rf"\({claim['range']}: {told(case['low'])} to {told(case['high'])}\)" for case in claim["cases"]
+            if claim["rule"] == "single"]
 
 
 def spoken(verdict):
@@ -103,7 +108,8 @@ def header(table):
 
 class Pages(program.ProgramTest):
     def studies(self):
-        return [line.split()[0] for line in self.succeeds("list", "studies").stdout.splitlines() if re.match("  [a-z]", line)]
+        return [line.split()[0] for line in self.succeeds("list", "studies").stdout.splitlines()
+                if re.match("  [a-z]", line)]
 
     def claims(self):
         return {claim["id"]: claim for claim in readme_pages.listed_claims()}
@@ -157,7 +163,8 @@ class Pages(program.ProgramTest):
                     tables = kept_tables(study, file)
                     left_out = not tables and f"`{file}`" in " ".join(readme_pages.not_kept(study, KEPT))
                     self.assertTrue(tables or left_out, "no such table among the kept records")
-                    self.assertFalse([of for of in columns if not (left_out or any(of in header(table) for table in tables))])
+                    self.assertFalse([of for of in columns
+                                      if not (left_out or any(of in header(table) for table in tables))])
 
     def test_each_column_on_record_is_explained(self):
         """By columns.md under the name of the study or for all of them; `pbskin explain` has those of metrics.csv."""
@@ -184,14 +191,16 @@ class Pages(program.ProgramTest):
                 files = [page.parent / file for file in re.findall(r"\]\(([^)]+)\)", row)]
                 texts = [file.read_text(encoding="utf-8") for file in files if file.is_file()]
                 for name in re.findall(r"`(?:\w+::)?(\w+)`", row.split(" | ")[-1]):
-                    self.assertTrue(not texts or any(name in text for text in texts) or any(page.parent.rglob(name)), row)
+                    self.assertTrue(not texts or any(name in text for text in texts) or any(page.parent.rglob(name)),
+                                    row)
 
     def test_files_named_by_the_readmes_of_experiments_are_there(self):
         for folder in ("", "deformers", "verdicts"):
             page = SOURCE / "experiments" / folder / "README.md"
             for name in re.findall(r"`([\w./]+\.(?:cpp|hpp|toml|py|csv))`", page.read_text(encoding="utf-8")):
                 places = [page.parent / name, SOURCE / name]
-                found = any(place.exists() for place in places) or (name.count("/") == 0 and any(page.parent.rglob(name)))
+                found = any(place.exists() for place in places) or (name.count("/") == 0
+                                                                    and any(page.parent.rglob(name)))
                 self.assertTrue(found or name in WRITTEN, f"{page.relative_to(SOURCE)}: {name}")
 
 
@@ -204,7 +213,8 @@ class KeptVerdicts(unittest.TestCase):
         cls.judged = pathlib.Path(temporary.name, "kept")
         shutil.copytree(RECORDS, cls.judged)
         (cls.judged / "claims.md").unlink()
-        judging = program.run("reproduce", "--judge", "-o", cls.judged, "--quiet", env={**os.environ, "COLUMNS": "1000"})
+        judging = program.run("reproduce", "--judge", "-o", cls.judged, "--quiet",
+                              env={**os.environ, "COLUMNS": "1000"})
         if judging.returncode != 0:
             raise RuntimeError(judging.stdout + judging.stderr)
         cls.printed = judging.stdout  # in lines that are not wrapped
@@ -218,7 +228,8 @@ class KeptVerdicts(unittest.TestCase):
         self.assertEqual([claim["id"] for claim in claims], [claim["id"] for claim in readme_pages.listed_claims()])
 
     def test_every_text_has_the_verdict_and_the_numbers_of_claims_json_in_its_place(self):
-        readme, listed = (file.read_text(encoding="utf-8") for file in (SOURCE / "README.md", self.judged / "claims.md"))
+        readme, listed = (file.read_text(encoding="utf-8")
+                          for file in (SOURCE / "README.md", self.judged / "claims.md"))
         for claim in sentences.claims_of(self.judged / "claims.json"):
             name, kind, word = claim["id"], claim["verdict"], spoken(claim["verdict"])
             later = claim["held_out"] and spoken(claim["held_out"]["verdict"])
@@ -249,8 +260,10 @@ class KeptVerdicts(unittest.TestCase):
         judged = kept.opened(self.judged)
         for page, lines in readme_pages.pages(judged).items():
             with self.subTest(page.relative_to(SOURCE)):
-                self.assertEqual(readme_part.cut(page, "kept")[1].splitlines()[1:], lines, "python3 paper_figures/make_readme.py writes it")
-                for sentence in re.split(r"(?<=[.?!]) +|\n", re.sub(r"^\|.*$", "", "\n".join(lines), flags=re.MULTILINE)):
+                self.assertEqual(readme_part.cut(page, "kept")[1].splitlines()[1:], lines,
+                                 "python3 paper_figures/make_readme.py writes it")
+                for sentence in re.split(r"(?<=[.?!]) +|\n",
+                                         re.sub(r"^\|.*$", "", "\n".join(lines), flags=re.MULTILINE)):
                     self.assertLessEqual(len(sentence.split()), MOST_WORDS_OF_A_SENTENCE, sentence)
         for name, lines_of in (("claims", readme_tables.claims_lines), ("findings", readme_findings.lines_of),
                                ("methods", readme_findings.methods_lines)):

@@ -2,12 +2,13 @@
 
     [name, what stderr must contain, how the content of the file differs from the sound one]
 
-What stderr must contain, besides the file's name, is a text for all `variants` (formats of the file, or verbs), or a list of texts, each
-behind its variants. A content is the name of a sound file (sound_files.py), `@` and the name of something special, or a table: it begins as
-`text`, as `parts` put together, or as a sound file, whose writer is called `with` other arguments. `scale` changes the points of a mesh;
-`set` and `drop` change the numbers of a mesh or of a glTF document by their paths, and `put` bytes of the accessor at a path, from this
-byte on. Then `replace`, `begin`, `end` (a number of bytes, or a share), `before` and `after` change the whole. A part is a text, a repeated
-text, packed numbers, or `@noise`. Each row of a `case` is [name, command, what stderr must contain, files, further members of the case]."""
+What stderr must contain, besides the file's name, is a text for all `variants` (formats of the file, or verbs), or a
+list of texts, each behind its variants. A content is the name of a sound file (sound_files.py), `@` and the name of
+something special, or a table: it begins as `text`, as `parts` put together, or as a sound file, whose writer is called
+`with` other arguments. `scale` changes the points of a mesh; `set` and `drop` change the numbers of a mesh or of a glTF
+document by their paths, and `put` bytes of the accessor at a path, from this byte on. Then `replace`, `begin`, `end` (a
+number of bytes, or a share), `before` and `after` change the whole. A part is a text, a repeated text, packed numbers,
+or `@noise`. Each row of a `case` is [name, command, what stderr must contain, files, further members of the case]."""
 import concurrent.futures
 import copy
 import os
@@ -39,8 +40,8 @@ SPECIAL = {"thousands_of_joints": "".join(JOINT % (i, i, i + 1) for i in range(2
            "noise": sound_files.NOISE, "sparse": sparse, "secret": secret, "folder": os.mkdir, "pipe": os.mkfifo,
            "locked": lambda path: path.mkdir(mode=0o555), "closed": lambda path: path.mkdir(mode=0),
            "loop": lambda path: path.symlink_to(path.name),
-           "link_to_nothing": lambda path: path.symlink_to("nowhere"), "endless": lambda path: path.symlink_to("/dev/zero"),
-           "null": lambda path: path.symlink_to("/dev/null")}
+           "link_to_nothing": lambda path: path.symlink_to("nowhere"),
+           "endless": lambda path: path.symlink_to("/dev/zero"), "null": lambda path: path.symlink_to("/dev/null")}
 
 
 def joined(parts, encoding="utf-8"):
@@ -120,10 +121,12 @@ def of_group(group):
             change = "@" + variant if change == "@{variant}" else change
             file = group["file"].format(extension=variant.split(" ")[0])
             command = group["command"][variant] if isinstance(group["command"], dict) else group["command"]
-            files = {f"records/momentum/{name}": of for name, of in sound_files.STUDY.items()} if "beside" in group else {}
+            files = ({f"records/momentum/{name}": of for name, of in sound_files.STUDY.items()} if "beside" in group
+                     else {})
             files[file] = content(change, group.get("sound", "").format(variant=variant))
-            yield bad_case.Case(group["name"].format(row=row, variant=variant), files, command.format(file=file).split(),
-                                (group.get("place", f"{file}:"), text), as_nobody=variant == "secret")
+            yield bad_case.Case(group["name"].format(row=row, variant=variant), files,
+                                command.format(file=file).split(), (group.get("place", f"{file}:"), text),
+                                as_nobody=variant == "secret")
 
 
 def of_cases(table):

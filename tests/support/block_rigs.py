@@ -1,4 +1,5 @@
-"""Rigs of blocks: two shoes side by side and a closed mouth, which nearly touch at rest as those of artists do, and a ring.
+"""Rigs of blocks: two shoes side by side and a closed mouth, which nearly touch at rest as those of artists do, and a
+ring.
 
     block_rigs.write_shoes(path)      # PATH.glb
 """
@@ -10,7 +11,8 @@ SHOES_GAP, MOUTH_GAP = 0.004, 0.003  # [m]
 
 
 def surface_of(lines, is_filled):
-    """Points, #P x 3, and outward triangles, #F x 3, of the surface of those cells between grid lines whose middles are filled."""
+    """Points, #P x 3, and outward triangles, #F x 3, of the surface of those cells between grid lines whose middles are
+    filled."""
     middles = numpy.meshgrid(*[(line[1:] + line[:-1]) / 2 for line in lines], indexing="ij")
     filled = numpy.pad(is_filled(*middles), 1)
     corners, triangles = {}, []
@@ -38,11 +40,13 @@ def lines(*ends, step=0.02):
 
 
 def written(path, surface, joints, weights, moving, turns):
-    """joints: (name, parent's number, place [m]). The joint with the number `moving` turns by these quaternions within a second."""
+    """joints: (name, parent's number, place [m]). The joint with the number `moving` turns by these quaternions within
+    a second."""
     gltf = rig_files.Gltf()
     nodes = rig_files.add_joints(gltf, [(*joint, {}) for joint in joints])
     gltf.node(name="body", mesh=rig_files.add_mesh(gltf, *surface, weights, 1.0, False), skin=0)
-    rig_files.add_animation(gltf, "Move", [(nodes[moving], "rotation", numpy.linspace(0.0, 1.0, len(turns)), turns, "LINEAR")])
+    rig_files.add_animation(gltf, "Move",
+                            [(nodes[moving], "rotation", numpy.linspace(0.0, 1.0, len(turns)), turns, "LINEAR")])
     return rig_files.write_glb(path, *gltf.written())
 
 
@@ -51,8 +55,8 @@ def ramp(at, begin, end):
 
 
 def write_shoes(path, far_bone=False):
-    """Hips with two legs, whose shoes are SHOES_GAP apart. The left leg steps forward. far_bone: the shoes alone, with the bone of the
-    right one 1 m above it."""
+    """Hips with two legs, whose shoes are SHOES_GAP apart. The left leg steps forward. far_bone: the shoes alone, with
+    the bone of the right one 1 m above it."""
     inner = SHOES_GAP / 2
 
     def is_filled(x, y, z):
@@ -79,7 +83,8 @@ def write_mouth(path):
         neck = (y < 0.0) & (z < -0.04) & (abs(x) < 0.05)
         mouth = (y > 0.05) & (y < above) & (z > -0.02)
         return neck | ((y > 0.0) & ~mouth)
-    surface = surface_of((lines(-0.07, -0.05, 0.05, 0.07), lines(-0.12, 0.0, 0.05, above, 0.25), lines(-0.1, -0.04, -0.02, 0.1)), is_filled)
+    surface = surface_of((lines(-0.07, -0.05, 0.05, 0.07), lines(-0.12, 0.0, 0.05, above, 0.25),
+                          lines(-0.1, -0.04, -0.02, 0.1)), is_filled)
     _, y, z = surface[0].T
     lip = ramp(z, -0.02, 0.03)  # at the corner of the mouth both lips move alike
     below = (y <= 0.05) | ((y < 0.0515) & (z < -0.02))
@@ -99,7 +104,9 @@ def write_ring(path, gap=0.0):
 
     def is_filled(x, y, z):
         return (numpy.maximum(abs(x), abs(y)) > 0.1) & ((y > 0) | (abs(x) > gap / 2))
-    surface = surface_of((lines(-0.2, -0.1, *middle, 0.1, 0.2, step=0.05), line, lines(-0.05, 0.05, step=0.05)), is_filled)
+    surface = surface_of((lines(-0.2, -0.1, *middle, 0.1, 0.2, step=0.05), line, lines(-0.05, 0.05, step=0.05)),
+                         is_filled)
     above = ramp(surface[0][:, 1], -0.05, 0.05)
     joints = [("root", None, (-0.15, -0.15, 0.0)), ("top", 0, (-0.15, 0.0, 0.0))]
-    return written(path, surface, joints, numpy.stack([1.0 - above, above], axis=1), 1, [rig_files.turn((1, 0, 0), a) for a in (0, 20)])
+    return written(path, surface, joints, numpy.stack([1.0 - above, above], axis=1), 1,
+                   [rig_files.turn((1, 0, 0), a) for a in (0, 20)])

@@ -1,10 +1,10 @@
-"""Rigged and moving characters of own making, with the traits of rigs that people export: a deer with thin legs, and a fish whose first
-frame is far from its bind pose.
+"""Rigged and moving characters of own making, with the traits of rigs that people export: a deer with thin legs, and a
+fish whose first frame is far from its bind pose.
 
     character_rigs.write_thin_walker(path)      # PATH.glb
 
-A body is an implicit surface: capsules that blend into one another, each of which belongs to a bone. The axes are x to the left, y up and
-z ahead; lengths are in metres.
+A body is an implicit surface: capsules that blend into one another, each of which belongs to a bone. The axes are x to
+the left, y up and z ahead; lengths are in metres.
 """
 import numpy
 import vtkmodules.util.numpy_support as numpy_support
@@ -18,7 +18,8 @@ RIGHT = numpy.array([-1.0, 1.0, 1.0])  # mirrors a place of the left side
 
 
 class Figure:
-    """Joints and capsules. `joint` and `capsule` take places [m]; a pair of limbs is made on the left side and mirrored."""
+    """Joints and capsules. `joint` and `capsule` take places [m]; a pair of limbs is made on the left side and
+    mirrored."""
 
     def __init__(self):
         self.joints = []    # (name, number of the joint above or None, place)
@@ -28,14 +29,16 @@ class Figure:
         return [joint[0] for joint in self.joints].index(name)
 
     def joint(self, name, above, place, *ends):
-        """A joint below another one and its capsules, each (end, radius at the joint, radius at the end). Returns the joint's name."""
+        """A joint below another one and its capsules, each (end, radius at the joint, radius at the end). Returns the
+        joint's name."""
         self.joints.append((name, None if above is None else self.number(above), numpy.array(place, dtype=float)))
         for end, *radii in ends:
             self.capsule(name, place, end, *radii)
         return name
 
     def capsule(self, name, begin, end, radius, end_radius):
-        self.capsules.append((self.number(name), numpy.array(begin, dtype=float), numpy.array(end, dtype=float), radius, end_radius))
+        self.capsules.append((self.number(name), numpy.array(begin, dtype=float), numpy.array(end, dtype=float), radius,
+                              end_radius))
 
     def pair(self, name, above, place, *ends):
         """The same joint on both sides; `above` may be one of a pair, whose name then ends in .L."""
@@ -49,11 +52,14 @@ class Figure:
         return numpy.stack([distance(points, *capsule[1:]) for capsule in self.capsules], axis=1)
 
     def surface(self, step, blend):
-        """Points and outward triangles of the surface on a grid with that step [m]. Capsules blend where both are within `blend` [m]."""
-        reach = max(max(radii) for *_, radii in ((capsule[0], capsule[3:]) for capsule in self.capsules)) + blend + 2 * step
+        """Points and outward triangles of the surface on a grid with that step [m]. Capsules blend where both are
+        within `blend` [m]."""
+        reach = (max(max(radii) for *_, radii in ((capsule[0], capsule[3:]) for capsule in self.capsules)) + blend
+                 + 2 * step)
         ends = numpy.array([end for capsule in self.capsules for end in capsule[1:3]])
         first = ends.min(axis=0) - reach
-        axes = [first[axis] + step * numpy.arange(int((ends[:, axis].max() + reach - first[axis]) / step) + 1) for axis in range(3)]
+        axes = [first[axis] + step * numpy.arange(int((ends[:, axis].max() + reach - first[axis]) / step) + 1)
+                for axis in range(3)]
         field = numpy.full([len(axis) for axis in axes], 1.0)
         for _, begin, end, *radii in self.capsules:
             near = max(radii) + blend + 2 * step
@@ -64,7 +70,8 @@ class Figure:
         return marched(field + 1e-9, first, step)  # no grid point is on the surface
 
     def weights(self, points, blend):
-        """Weights, #P x #joints: a point belongs to the nearest bone, and within `blend` [m] also to the bones that are joined to it."""
+        """Weights, #P x #joints: a point belongs to the nearest bone, and within `blend` [m] also to the bones that are
+        joined to it."""
         count, away = len(self.joints), numpy.full((len(points), len(self.joints)), numpy.inf)
         for (bone, *_), column in zip(self.capsules, self.distances(points).T):
             away[:, bone] = numpy.minimum(away[:, bone], column)
@@ -81,7 +88,8 @@ def distance(points, begin, end, radius, end_radius):
     """Signed distance of points, ... x 3, from a capsule whose radius changes evenly."""
     along = end - begin
     share = numpy.clip((points - begin) @ along / max(along @ along, 1e-12), 0.0, 1.0)
-    return numpy.linalg.norm(points - begin - share[..., None] * along, axis=-1) - (radius + share * (end_radius - radius))
+    return numpy.linalg.norm(points - begin - share[..., None] * along,
+                             axis=-1) - (radius + share * (end_radius - radius))
 
 
 def smooth_minimum(one, other, width):
@@ -117,12 +125,14 @@ def turned(name, axis, degrees):
 
 def swung(name, axis, amplitude, phase=0.0, cycles=2, middle=0.0):
     """A joint that swings about an axis: middle + amplitude sin(phase + cycles turns)."""
-    return turned(name, axis, middle + amplitude * numpy.sin(phase + 2 * numpy.pi * cycles * numpy.linspace(0.0, 1.0, 33)))
+    return turned(name, axis,
+                  middle + amplitude * numpy.sin(phase + 2 * numpy.pi * cycles * numpy.linspace(0.0, 1.0, 33)))
 
 
 def both(name, *arguments, phase, **options):
     """The same swing on both sides, half a cycle apart."""
-    return [swung(f"{name}.{side}", *arguments, phase=phase + shift, **options) for side, shift in (("L", 0.0), ("R", numpy.pi))]
+    return [swung(f"{name}.{side}", *arguments, phase=phase + shift, **options)
+            for side, shift in (("L", 0.0), ("R", numpy.pi))]
 
 
 def written(path, figure, points, triangles, weights, motion, seconds):
@@ -156,7 +166,8 @@ def trot(amplitude):
 
 
 def write_thin_walker(path, seconds=2.0, step=0.008, leg=0.017):
-    """A deer of 1.1 m, whose legs (radius `leg` at the ankle [m]) are about three tets thick where the body has 2,000 vertices."""
+    """A deer of 1.1 m, whose legs (radius `leg` at the ankle [m]) are about three tets thick where the body has 2,000
+    vertices."""
     figure = Figure()
     figure.joint("hips", None, (0, 0.72, -0.3), ((0, 0.73, -0.08), 0.1, 0.1))
     figure.joint("chest", "hips", (0, 0.73, -0.05), ((0, 0.72, 0.22), 0.1, 0.115))
@@ -172,22 +183,27 @@ def write_thin_walker(path, seconds=2.0, step=0.008, leg=0.017):
 
 
 def write_far_first_pose(path, seconds=2.0, step=0.008, first_deg=165.0):
-    """A fish of 0.8 m with side fins of 0.3 m. From the first frame on they are turned over by first_deg, about an axis that is nearly
-    along them, and swing a little, and the tail beats. LBS collapses and inverts their roots in all frames."""
+    """A fish of 0.8 m with side fins of 0.3 m. From the first frame on they are turned over by first_deg, about an axis
+    that is nearly along them, and swing a little, and the tail beats. LBS collapses and inverts their roots in all
+    frames."""
     figure, above = Figure(), None
-    for number, (begin, radii) in enumerate(((0.0, (0.075, 0.11)), (-0.14, (0.11, 0.09)), (-0.28, (0.085, 0.05)), (-0.42, (0.045, 0.03)))):
+    for number, (begin, radii) in enumerate(((0.0, (0.075, 0.11)), (-0.14, (0.11, 0.09)), (-0.28, (0.085, 0.05)),
+                                             (-0.42, (0.045, 0.03)))):
         above = figure.joint(f"body.{number}", above, (0, 0, begin), ((0, 0, begin - 0.12), *radii))
     figure.joint("head", "body.0", (0, 0, 0.02), ((0, 0, 0.12), 0.09, 0.055))
     figure.joint("tail", above, (0, 0, -0.54), ((0, 0.11, -0.66), 0.03, 0.018))
     figure.capsule("tail", (0, 0, -0.54), (0, -0.11, -0.66), 0.03, 0.018)
     figure.joint("back_fin", "body.1", (0, 0.1, -0.15), ((0, 0.19, -0.24), 0.026, 0.014))
-    root, along, back = numpy.array((0.085, -0.02, 0.0)), numpy.array((0.1, -0.005, 0.1)), numpy.array((0.03, 0.0, -0.03))
+    root, along, back = numpy.array((0.085, -0.02, 0.0)), numpy.array((0.1, -0.005, 0.1)), numpy.array(
+        (0.03, 0.0, -0.03))
     fin = figure.pair("fin", "body.0", root, (root + along, 0.028, 0.025), (root + along + back, 0.028, 0.022))
-    figure.pair("fin_tip", fin, root + along, (root + 2.1 * along, 0.025, 0.014), (root + 1.9 * along + 1.5 * back, 0.024, 0.014))
+    figure.pair("fin_tip", fin, root + along, (root + 2.1 * along, 0.025, 0.014),
+                (root + 1.9 * along + 1.5 * back, 0.024, 0.014))
     swim = numpy.sin(4 * numpy.pi * numpy.linspace(0.0, 1.0, 33))
     motion = [swung(f"body.{number}", UP, 9 + 3 * number, phase=-0.8 * number) for number in range(1, 4)]
     motion += [swung("tail", UP, 25, phase=-3)]
-    motion += [turned(f"fin.{side}", (1.0, -0.05 * sign, sign), sign * (first_deg + 12 * swim)) for side, sign in (("L", 1), ("R", -1))]
+    motion += [turned(f"fin.{side}", (1.0, -0.05 * sign, sign), sign * (first_deg + 12 * swim))
+               for side, sign in (("L", 1), ("R", -1))]
     motion += [turned(f"fin_tip.{side}", (0.0, 0.0, -sign), 25 + 10 * swim) for side, sign in (("L", 1), ("R", -1))]
     points, triangles = figure.surface(step, 0.025)
     return written(path, figure, points, triangles, figure.weights(points, 0.08), motion, seconds)

@@ -1,6 +1,7 @@
-"""The skinning formula of FBX, from the bytes of a binary file, in double precision: the sum over the clusters of weight x transform of the
-link x `Transform` of the cluster x point, divided by the sum of the weights. It covers what exporters such as Blender's write: Euler angles
-in the order xyz without pivots, and linear curves. Written from the format, without pbskin.
+"""The skinning formula of FBX, from the bytes of a binary file, in double precision: the sum over the clusters of
+weight x transform of the link x `Transform` of the cluster x point, divided by the sum of the weights. It covers what
+exporters such as Blender's write: Euler angles in the order xyz without pivots, and linear curves. Written from the
+format, without pbskin.
 
     fbx_formula.Model("hero.fbx").points(None, 0.5)     # all meshes, #P x 3, in the file's unit
 """
@@ -92,7 +93,8 @@ class Model:
         return {"name": stack.values[1].split("\0")[0]}
 
     def span_s(self, _=None):
-        times = numpy.concatenate([record.one("KeyTime").values[0] for record in self.objects.values() if record.name == "AnimationCurve"])
+        times = numpy.concatenate([record.one("KeyTime").values[0] for record in self.objects.values()
+                                   if record.name == "AnimationCurve"])
         return times.min() / TICKS_PER_S, times.max() / TICKS_PER_S
 
     def sampled(self, model, name, value, time_s):
@@ -142,5 +144,6 @@ class Model:
         return total / sums[:, None]
 
     def points(self, _, time_s):
-        geometries = [key for key, record in self.objects.items() if record.name == "Geometry" and record.all("Vertices")]
+        geometries = [key for key, record in self.objects.items() if record.name == "Geometry"
+                      and record.all("Vertices")]
         return numpy.concatenate([self.geometry_points(geometry, time_s) for geometry in geometries])

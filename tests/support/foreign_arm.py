@@ -1,4 +1,5 @@
-"""A tet mesh, skeleton and scene that no part of the project has generated: a tapered box with two bones, written as Gmsh 2.2."""
+"""A tet mesh, skeleton and scene that no part of the project has generated: a tapered box with two bones, written as
+Gmsh 2.2."""
 import itertools
 import pathlib
 
@@ -7,14 +8,16 @@ import program
 
 FOLDER = pathlib.Path(__file__).with_name("arm")
 SCENE, SKELETON = (FOLDER / "arm.toml").read_text(), (FOLDER / "arm.skeleton.toml").read_text()
-PBS = SCENE[SCENE.index("[pbs]"):SCENE.index("[deformers]")]  # what the paper leaves unstated, so that each scene with PBS states it
+# What the paper leaves unstated, so that each scene with PBS states it.
+PBS = SCENE[SCENE.index("[pbs]"):SCENE.index("[deformers]")]
 MOTION = SCENE[SCENE.index("joint ="):SCENE.index("[pbs]")]
 # The scene states the frames per second; a step takes 0.01 s, like the clip's frames.
 CLIP_SCENE = SCENE.replace(MOTION, 'clip = "arm.bvh"\nrate_hz = %.1f\n').replace('["lbs", "dqs", "pbs"]', '["pbs"]')
 
 
 def mesh(cells=(20, 4, 4)):
-    """Points [m] and tets of a box [0, 1] x [-0.1, 0.1]^2 that tapers to 60 %; each cell is split into six tets along its diagonal."""
+    """Points [m] and tets of a box [0, 1] x [-0.1, 0.1]^2 that tapers to 60 %; each cell is split into six tets along
+    its diagonal."""
     nx, ny, nz = cells
     points = []
     for k, j, i in itertools.product(range(nz + 1), range(ny + 1), range(nx + 1)):
@@ -37,7 +40,8 @@ def write_msh(path, points, tets):
 
 
 def bvh(names, frames, time_s=0.01, length_m=0.5):
-    """A clip of a chain of joints; frames: the position of the first joint and the angles of each, about z, x and y [degrees]."""
+    """A clip of a chain of joints; frames: the position of the first joint and the angles of each, about z, x and y
+    [degrees]."""
     inner = f"End Site\n{{\nOFFSET {length_m} 0 0\n}}\n"
     for name in reversed(names[1:]):
         inner = f"JOINT {name}\n{{\nOFFSET {length_m} 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n{inner}}}\n"

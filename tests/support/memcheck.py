@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the programs of the unit tests under valgrind with a full search for leaks, and counts for tests/README.md how many were clean.
-Errors of other libraries are listed in valgrind_suppressions.txt, each with its reason.
+"""Runs the programs of the unit tests under valgrind with a full search for leaks, and counts for tests/README.md how
+many were clean. Errors of other libraries are listed in valgrind_suppressions.txt, each with its reason.
 
     PBS_RELIABILITY_DIR=DIR memcheck.py build/valgrind/tests JOBS
 """
@@ -18,7 +18,8 @@ LIMIT_S = 300  # per program
 # compares GSL's mean to the bit, for which valgrind lacks the 80-bit numbers
 LEFT_OUT = {"test_unit_analysis": "VolumeIsPreserved.BreakdownDoesNotHold"}
 SUPPRESSIONS = pathlib.Path(__file__).with_name("valgrind_suppressions.txt")
-VALGRIND = ["valgrind", "-q", "--error-exitcode=9", "--leak-check=full", "--num-callers=20", f"--suppressions={SUPPRESSIONS}"]
+VALGRIND = ["valgrind", "-q", "--error-exitcode=9", "--leak-check=full", "--num-callers=20",
+            f"--suppressions={SUPPRESSIONS}"]
 
 
 def run(program):
@@ -43,7 +44,8 @@ def main(folder, jobs):
             clean, tests = clean + (not wrong), tests + ran
             if wrong:
                 print(f"{name}: {wrong}", file=sys.stderr)
-    reliability.tell("valgrind", "programs of unit tests of the method and the metrics without an error or a leak found by valgrind", clean,
+    reliability.tell("valgrind", "programs of unit tests of the method and the metrics without an error or a leak "
+                                 "found by valgrind", clean,
                      len(programs), command="./check --long", note=f"{tests:,} tests")
     return 0 if programs and clean == len(programs) else 1
 

@@ -40,7 +40,8 @@ def statuses():
     found = {}
     for entry in os.listdir("/proc"):
         try:
-            fields = pathlib.Path("/proc", entry, "stat").read_text().rsplit(")", 1)[1].split() if entry.isdigit() else None
+            fields = (pathlib.Path("/proc", entry, "stat").read_text().rsplit(")", 1)[1].split() if entry.isdigit()
+                      else None)
         except OSError:  # the process has ended meanwhile
             continue
         if fields:

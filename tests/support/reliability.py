@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the counts of the reliability tests for tests/README.md to FILE.json in the folder that PBS_RELIABILITY_DIR names; without it,
-nothing is written.
+"""Writes the counts of the reliability tests for tests/README.md to FILE.json in the folder that PBS_RELIABILITY_DIR
+names; without it, nothing is written.
 
     reliability.tell("kills", "kills survived", 20, 20, note="seed 2014")
 
-As a program, it counts the results of a run of ctest from its JUnit report, or how many lines of the project's code the tests ran from
-gcovr's summary, with exit status 1 if too few:
+As a program, it counts the results of a run of ctest from its JUnit report, or how many lines of the project's code the
+tests ran from gcovr's summary, with exit status 1 if too few:
 
     PBS_RELIABILITY_DIR=DIR reliability.py results/check/tsan.xml tsan "tests without a report of the thread sanitizer"
     PBS_RELIABILITY_DIR=DIR reliability.py results/check/coverage.json
@@ -21,7 +21,8 @@ least_percent = 85.0
 
 
 def revision():
-    described = subprocess.run(["git", "-C", os.environ["PBS_SOURCE"], "rev-parse", "HEAD"], capture_output=True, text=True)
+    described = subprocess.run(["git", "-C", os.environ["PBS_SOURCE"], "rev-parse", "HEAD"], capture_output=True,
+                               text=True)
     return described.stdout.strip() or "unknown"
 
 
@@ -31,7 +32,8 @@ def tell(file, name, count, of, **facts):
         return
     told = pathlib.Path(folder, f"{file}.json")
     told.parent.mkdir(parents=True, exist_ok=True)
-    command = ("PBS_LONG=1 " if os.environ.get("PBS_LONG") else "") + os.path.relpath(sys.argv[0], os.environ["PBS_SOURCE"])
+    command = ("PBS_LONG=1 " if os.environ.get("PBS_LONG")
+               else "") + os.path.relpath(sys.argv[0], os.environ["PBS_SOURCE"])
     record = {"name": name, "count": count, "of": of, "command": command, "revision": revision(), **facts}
     beside = told.with_suffix(".part")
     beside.write_text(json.dumps(record, indent=2) + "\n")

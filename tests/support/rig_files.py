@@ -1,5 +1,5 @@
-"""Rigged glTF files with the difficulties that rigs from outside have, made of one tube with three joints: root, elbow and tip. The
-skinning that the file format defines is computed by skin_formula.py, without pbskin.
+"""Rigged glTF files with the difficulties that rigs from outside have, made of one tube with three joints: root, elbow
+and tip. The skinning that the file format defines is computed by skin_formula.py, without pbskin.
 
     rig_files.write("scaled_container", path)      # PATH.glb
 """
@@ -12,7 +12,8 @@ import tomllib
 
 import numpy
 
-LENGTH, RADIUS, RINGS, SIDES = 1.0, 0.045, 25, 16  # of the tube along x [m]; the meshing of a thicker or thinner one takes longer
+# The sizes of the tube along x [m]; the meshing of a thicker or thinner one takes longer.
+LENGTH, RADIUS, RINGS, SIDES = 1.0, 0.045, 25, 16
 JOINTS = ("root", "elbow", "tip")
 PLACES = ((0.0, 0.0, 0.0), (0.45, 0.0, 0.0), (0.8, 0.0, 0.0))
 FLOAT, UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5121, 5123, 5125
@@ -27,7 +28,8 @@ def tube(begin=0.0, end=LENGTH):
     at = lambda ring, side: 1 + ring * SIDES + side % SIDES
     triangles = []
     for side in range(SIDES):
-        triangles += [(0, at(0, side + 1), at(0, side)), (len(points) - 1, at(RINGS - 1, side), at(RINGS - 1, side + 1))]
+        triangles += [(0, at(0, side + 1), at(0, side)), (len(points) - 1, at(RINGS - 1, side),
+                                                          at(RINGS - 1, side + 1))]
         for ring in range(RINGS - 1):
             triangles += [(at(ring, side), at(ring, side + 1), at(ring + 1, side)),
                           (at(ring + 1, side), at(ring, side + 1), at(ring + 1, side + 1))]
@@ -48,7 +50,8 @@ def turn(axis, degrees):
 
 
 def glb(document, data, version=2, json_length=None, length=None):
-    """The bytes of a .glb file, with the lengths that it states; both parts are filled up to a multiple of four bytes."""
+    """The bytes of a .glb file, with the lengths that it states; both parts are filled up to a multiple of four
+    bytes."""
     text = json.dumps(document).encode()
     text, data = text + b" " * (-len(text) % 4), bytes(data) + bytes(-len(data) % 4)
     chunks = struct.pack("<I4s", len(text) if json_length is None else json_length, b"JSON") + text
@@ -67,8 +70,8 @@ class Gltf:
 
     def __init__(self):
         self.bytes = bytearray()
-        self.document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "skins": [],
-                         "animations": [], "accessors": [], "bufferViews": []}
+        self.document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [],
+                         "skins": [], "animations": [], "accessors": [], "bufferViews": []}
 
     def put(self, numbers, kind, component, normalized=False):
         """The index of a new accessor."""
@@ -77,7 +80,8 @@ class Gltf:
         self.bytes += bytes(-len(self.bytes) % 4)
         self.document["bufferViews"].append({"buffer": 0, "byteOffset": len(self.bytes), "byteLength": array.nbytes})
         self.bytes += array.tobytes()
-        accessor = {"bufferView": len(self.document["bufferViews"]) - 1, "componentType": component, "count": len(array), "type": kind}
+        accessor = {"bufferView": len(self.document["bufferViews"]) - 1, "componentType": component,
+                    "count": len(array), "type": kind}
         if normalized:
             accessor["normalized"] = True
         if kind == "VEC3" and component == FLOAT:
@@ -102,13 +106,14 @@ class Gltf:
 
 
 def add_joints(gltf, joints, parent=None, unit=1.0):
-    """The nodes of joints, each (name, number of the joint above or None, place [m], further members), and their skin. The joints without
-    one above are below the node `parent`."""
+    """The nodes of joints, each (name, number of the joint above or None, place [m], further members), and their skin.
+    The joints without one above are below the node `parent`."""
     places, nodes = numpy.array([place for _, _, place, _ in joints]), []
     for place, (name, above, _, members) in zip(places, joints):
         shift, below = (place, parent) if above is None else (place - places[above], nodes[above])
         nodes.append(gltf.node(below, name=name, translation=(shift / unit).tolist(), **members))
-    bind = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *(0.0 - place / unit), 1] for place in places]  # inverse, column by column
+    # inverse, column by column.
+    bind = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *(0.0 - place / unit), 1] for place in places]
     gltf.document["skins"].append({"joints": nodes, "inverseBindMatrices": gltf.put(bind, "MAT4", FLOAT)})
     return nodes
 
@@ -121,7 +126,8 @@ def quantised(weights):
 
 
 def add_mesh(gltf, points, triangles, weights, unit, compact):
-    """A mesh with its skin weights, #P x #joints, of which the four largest of a point are kept; compact: as bytes and shorts."""
+    """A mesh with its skin weights, #P x #joints, of which the four largest of a point are kept; compact: as bytes and
+    shorts."""
     count = weights.shape[1]
     if count > 4:
         joints = numpy.argsort(-weights, axis=1, kind="stable")[:, :4]
@@ -155,8 +161,8 @@ def add_animation(gltf, name, channels):
     samplers, targets = [], []
     for node, path, times, values, interpolation in channels:
         kind = "VEC4" if path == "rotation" else "VEC3"
-        samplers.append({"input": gltf.put(numpy.array(times).reshape(-1, 1), "SCALAR", FLOAT), "output": gltf.put(values, kind, FLOAT),
-                         "interpolation": interpolation})
+        samplers.append({"input": gltf.put(numpy.array(times).reshape(-1, 1), "SCALAR", FLOAT),
+                         "output": gltf.put(values, kind, FLOAT), "interpolation": interpolation})
         targets.append({"sampler": len(samplers) - 1, "target": {"node": node, "path": path}})
     gltf.document["animations"].append({"name": name, "samplers": samplers, "channels": targets})
 
@@ -165,19 +171,22 @@ def bend(gltf, joints, first_deg=0.0):
     """An animation that bends the elbow by 70 degrees and the tip by 40, and moves the root."""
     times = [0.0, 0.5, 1.0]
     add_animation(gltf, "Bend", [
-        (joints[1], "rotation", times, [turn((0, 0, 1), first_deg), turn((0, 0, 1), 35), turn((0, 0, 1), 70)], "LINEAR"),
+        (joints[1], "rotation", times, [turn((0, 0, 1), first_deg), turn((0, 0, 1), 35), turn((0, 0, 1), 70)],
+         "LINEAR"),
         (joints[2], "rotation", times, [turn((0, 1, 0), 0), turn((0, 1, 0), -20), turn((0, 1, 0), -40)], "LINEAR")])
 
 
-def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_name="body", animations=("Bend",), extra=(),
-        shifted_m=(0.0, 0.0, 0.0), first_deg=None, tiny_tip=False, on_ground=False, one_joint=False, surface=None):
+def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_name="body", animations=("Bend",),
+        extra=(), shifted_m=(0.0, 0.0, 0.0), first_deg=None, tiny_tip=False, on_ground=False, one_joint=False,
+        surface=None):
     """The document and the bytes of the buffer of a glTF file.
 
-    containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and joints. rest_deg:
-    angle of the elbow in the file's rest pose, which then is not the bind pose. extra: further animations, as add_animation takes them.
-    shifted_m: distance of the joints from the tube. first_deg: angle of the elbow in the first frame. tiny_tip: the tip
-    moves a bead inside the tube alone. on_ground: the root is below a joint `ground`, 0.5 m under the tube, which has a hundredth of its
-    weight. one_joint: the root alone, which the animation Sway turns. surface: points and triangles in
+    containers: transforms of the nodes above the root joint, outermost first. unit: metres per unit of the points and
+    joints. rest_deg: angle of the elbow in the file's rest pose, which then is not the bind pose. extra: further
+    animations, as add_animation takes them. shifted_m: distance of the joints from the tube. first_deg: angle of the
+    elbow in the first frame. tiny_tip: the tip
+    moves a bead inside the tube alone. on_ground: the root is below a joint `ground`, 0.5 m under the tube, which has a
+    hundredth of its weight. one_joint: the root alone, which the animation Sway turns. surface: points and triangles in
     place of the tube.
     """
     gltf, parent = Gltf(), None
@@ -207,16 +216,19 @@ def rig(containers=(), unit=1.0, compact=False, halves=1, rest_deg=0.0, mesh_nam
     if on_ground:
         joints = joints[1:]  # those that animations move
     if one_joint:
-        add_animation(gltf, "Sway", [(joints[0], "rotation", [0.0, 1.0], [turn((0, 0, 1), 0), turn((0, 0, 1), 70)], "LINEAR")])
+        add_animation(gltf, "Sway", [(joints[0], "rotation", [0.0, 1.0], [turn((0, 0, 1), 0), turn((0, 0, 1), 70)],
+                                      "LINEAR")])
     for name in () if one_joint else animations:
         if name == "Bend":
             bend(gltf, joints, rest_deg if first_deg is None else first_deg)
         if name == "Twist":
-            add_animation(gltf, "Twist", [(joints[1], "rotation", [0.0, 1.0], [turn((1, 0, 0), 0), turn((1, 0, 0), 90)], "LINEAR")])
+            add_animation(gltf, "Twist", [(joints[1], "rotation", [0.0, 1.0], [turn((1, 0, 0), 0), turn((1, 0, 0), 90)],
+                                           "LINEAR")])
         if name == "Spline":
             still = [0.0, 0.0, 0.0, 0.0]
             add_animation(gltf, "Spline", [
-                (joints[1], "rotation", [0.0, 1.0], [still, turn((0, 0, 1), 0), still, still, turn((0, 0, 1), 60), still], "CUBICSPLINE"),
+                (joints[1], "rotation", [0.0, 1.0], [still, turn((0, 0, 1), 0), still, still, turn((0, 0, 1), 60),
+                                                     still], "CUBICSPLINE"),
                 (joints[0], "translation", [0.0, 0.6], [[0, 0, 0], [0, 0.3 / unit, 0]], "STEP")])
     for name, channels in extra:
         add_animation(gltf, name, [(joints[joint], *channel) for joint, *channel in channels])

@@ -90,13 +90,15 @@ def junit_cases(path):
 
 def failed_cases(path):
     """Classname and name of each case with a <failure> or an <error>."""
-    return {key for key, case in junit_cases(path).items() if case.find("failure") is not None or case.find("error") is not None}
+    return {key for key, case in junit_cases(path).items() if case.find("failure") is not None
+            or case.find("error") is not None}
 
 
 def scenes_of_another_mesh(folder):
-    """The scenes of a check's folder whose counts of vertices and tets differ from the project's baseline, as with another version of
-    CGAL."""
-    with open(os.path.join(program.SOURCE, "experiments", "verdicts", "check", "check_baseline.csv"), encoding="utf-8", newline="") as file:
+    """The scenes of a check's folder whose counts of vertices and tets differ from the project's baseline, as with
+    another version of CGAL."""
+    with open(os.path.join(program.SOURCE, "experiments", "verdicts", "check", "check_baseline.csv"), encoding="utf-8",
+              newline="") as file:
         baseline = {row["scene"]: (int(row["vertices"]), int(row["tets"])) for row in csv.DictReader(file)}
     others = set()
     for scene, counts in baseline.items():

@@ -1,5 +1,6 @@
-"""The skinning formula of glTF 2.0 (Sec. 3.7.3), from the bytes of a .glb or .gltf file, in double precision: the sum over the joints of
-weight x node transform x inverse bind matrix x point. Written from the specification, without pbskin.
+"""The skinning formula of glTF 2.0 (Sec. 3.7.3), from the bytes of a .glb or .gltf file, in double precision: the sum
+over the joints of weight x node transform x inverse bind matrix x point. Written from the specification, without
+pbskin.
 
     skin_formula.Model("hero.glb").points("Walk", 0.5)     # all meshes of the scene, #P x 3, in the file's unit
 """
@@ -12,8 +13,9 @@ import numpy
 
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
-# The tolerance for another order of operations, relative to the largest coordinate. A point has up to 4 joints with up to 6 nodes above
-# each, and a product of two matrices and its use take some 40 operations: fewer than 2^10 results are rounded, each by up to 2^-53.
+# The tolerance for another order of operations, relative to the largest coordinate. A point has up to 4 joints with up
+# to 6 nodes above each, and a product of two matrices and its use take some 40 operations: fewer than 2^10 results are
+# rounded, each by up to 2^-53.
 ROUNDED = 2.0 ** -43
 
 
@@ -67,7 +69,8 @@ class Model:
         view = self.document["bufferViews"][accessor["bufferView"]]
         stride = view.get("byteStride", dtype.itemsize * width)
         begin = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        rows = [numpy.frombuffer(self.buffers[view["buffer"]], dtype, width, begin + stride * e) for e in range(accessor["count"])]
+        rows = [numpy.frombuffer(self.buffers[view["buffer"]], dtype, width, begin + stride * e)
+                for e in range(accessor["count"])]
         numbers = numpy.array(rows, dtype=float).reshape(-1, width)
         if accessor.get("normalized"):
             numbers = numpy.maximum(numbers / numpy.iinfo(dtype).max, -1.0)
@@ -139,12 +142,13 @@ class Model:
             waiting += self.nodes[n].get("children", [])
 
     def mesh_points(self, n, moved):
-        """The points of all triangle primitives of a node's mesh, in the scene, that triangles use; primitives with the same attributes
-        share them."""
+        """The points of all triangle primitives of a node's mesh, in the scene, that triangles use; primitives with the
+        same attributes share them."""
         node, used = self.nodes[n], {}
         for primitive in self.document["meshes"][node["mesh"]]["primitives"]:
             if primitive.get("mode", 4) in (4, 5, 6):
-                used.setdefault(json.dumps(primitive["attributes"], sort_keys=True), (primitive, []))[1].append(self.corners(primitive))
+                used.setdefault(json.dumps(primitive["attributes"], sort_keys=True),
+                                (primitive, []))[1].append(self.corners(primitive))
         for primitive, corners in used.values():
             yield self.skinned(node, n, primitive, moved)[numpy.unique(numpy.concatenate(corners))]
 
@@ -167,8 +171,9 @@ class Model:
         if "skin" not in node:
             return (points @ self.world(n, moved).T)[:, :3]
         skin = self.document["skins"][node["skin"]]
-        inverse = self.numbers(skin["inverseBindMatrices"]).reshape(-1, 4, 4).transpose(0, 2, 1) if "inverseBindMatrices" in skin \
-            else numpy.tile(numpy.eye(4), (len(skin["joints"]), 1, 1))
+        inverse = (self.numbers(skin["inverseBindMatrices"]).reshape(-1, 4, 4).transpose(0, 2, 1)
+                   if "inverseBindMatrices" in skin \
+            else numpy.tile(numpy.eye(4), (len(skin["joints"]), 1, 1)))
         matrices = numpy.array([self.world(joint, moved) @ inverse[j] for j, joint in enumerate(skin["joints"])])
         total, sums = numpy.zeros((len(points), 3)), numpy.zeros(len(points))
         for part in range(8):
@@ -184,5 +189,6 @@ class Model:
     def points(self, name, time_s):
         """All meshes in the order of their nodes; time_s None: at rest."""
         moved = self.moved(name, time_s) if time_s is not None else {}
-        meshes = [numpy.concatenate(list(self.mesh_points(n, moved))) for n in sorted(self.scene_nodes()) if "mesh" in self.nodes[n]]
+        meshes = [numpy.concatenate(list(self.mesh_points(n, moved))) for n in sorted(self.scene_nodes())
+                  if "mesh" in self.nodes[n]]
         return numpy.concatenate(sorted(meshes, key=len, reverse=True))  # pbskin begins with the largest mesh

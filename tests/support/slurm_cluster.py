@@ -1,11 +1,13 @@
-"""A Slurm cluster of one node in a folder of its own: munged, slurmctld and slurmd on free ports of the loopback, with their own key,
-socket, configuration and state, without accounting and cgroups. It neither reads nor changes a Slurm of the system, and does not need root.
+"""A Slurm cluster of one node in a folder of its own: munged, slurmctld and slurmd on free ports of the loopback, with
+their own key, socket, configuration and state, without accounting and cgroups. It neither reads nor changes a Slurm of
+the system, and does not need root.
 
     with slurm_cluster.SlurmCluster() as cluster:
         subprocess.run(["sbatch", ...], env=cluster.environment)
 
-It ends what it started, also after an error or ^C: orphans become children of this process, which knows its children. If this process
-itself is killed by SIGKILL, the daemons end with it, but running jobs continue to their end, and the folder remains."""
+It ends what it started, also after an error or ^C: orphans become children of this process, which knows its children.
+If this process itself is killed by SIGKILL, the daemons end with it, but running jobs continue to their end, and the
+folder remains."""
 import ctypes
 import getpass
 import os
@@ -27,7 +29,8 @@ DEATH_SIGNAL, SUBREAPER = 1, 36
 
 def missing():
     """The required programs that are missing."""
-    return [name for name in PROGRAMS if not any(os.access(os.path.join(folder, name), os.X_OK) for folder in PATH.split(":"))]
+    return [name for name in PROGRAMS if not any(os.access(os.path.join(folder, name), os.X_OK)
+                                                 for folder in PATH.split(":"))]
 
 
 def free_ports(count):
@@ -87,12 +90,14 @@ class SlurmCluster:
         configuration = self.folder / "slurm.conf"
         configuration.write_text(CONFIGURATION.read_text().format(folder=self.folder, user=getpass.getuser(),
                                                                   controller_port=controller_port, node_port=node_port))
-        self.environment = {name: value for name, value in os.environ.items() if not name.startswith(("SLURM", "SBATCH", "SRUN"))}
+        self.environment = {name: value
+                            for name, value in os.environ.items() if not name.startswith(("SLURM", "SBATCH", "SRUN"))}
         self.environment.update(PATH=PATH, SLURM_CONF=str(configuration), USER=getpass.getuser())
         munge = self.folder / "munge"
         subprocess.run(["mungekey", "--create", f"--keyfile={munge}/key"], check=True, env=self.environment)
-        self.daemon("munged", "--foreground", "--force", f"--key-file={munge}/key", f"--socket={munge}/socket", f"--pid-file={munge}/pid",
-                    f"--log-file={munge}/log", f"--seed-file={munge}/seed", "--num-threads=2")
+        self.daemon("munged", "--foreground", "--force", f"--key-file={munge}/key", f"--socket={munge}/socket",
+                    f"--pid-file={munge}/pid", f"--log-file={munge}/log", f"--seed-file={munge}/seed",
+                    "--num-threads=2")
         wait_for("munged's socket", (munge / "socket").exists)
         self.daemon("slurmctld", "-D", "-f", configuration)
         self.daemon("slurmd", "-D", "-N", "localhost", "-f", configuration)
@@ -106,8 +111,8 @@ class SlurmCluster:
 
     def daemon(self, *command):
         with open(self.folder / f"{command[0]}.out", "w", encoding="utf-8") as log:
-            self.daemons.append(subprocess.Popen([str(part) for part in command], stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                                 start_new_session=True, env=self.environment,
+            self.daemons.append(subprocess.Popen([str(part) for part in command], stdin=subprocess.DEVNULL, stdout=log,
+                                                 stderr=log, start_new_session=True, env=self.environment,
                                                  preexec_fn=lambda: _prctl(DEATH_SIGNAL, signal.SIGTERM, 0, 0, 0)))
 
     def told(self, *command):

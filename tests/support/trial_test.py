@@ -23,11 +23,13 @@ class TrialTest(program.ProgramTest):
         """One name for all, so that the cache has one mesh for those with the same surface."""
         return rig_files.write(variant, self.path("rig.glb"), **options)
 
-    def tried(self, model, *arguments, into="out", without=("--no-reference",), vertices="300", frames=FRAMES, **environment):
+    def tried(self, model, *arguments, into="out", without=("--no-reference",), vertices="300", frames=FRAMES,
+              **environment):
         """try.json and what was printed. The page has a viewer, whose program does nothing."""
         self.write("viewer.js", "// a viewer")
-        process = self.succeeds("try", model, "-o", self.path(into), "--frames", frames, "--vertices", vertices, *without, *arguments,
-                                env={**os.environ, "PBS_VIEWER_BUILD": self.folder, **environment})
+        process = self.succeeds("try", model, "-o", self.path(into), "--frames", frames, "--vertices", vertices,
+                                *without, *arguments, env={**os.environ, "PBS_VIEWER_BUILD": self.folder,
+                                                           **environment})
         return self.json(into, "try.json"), process.stdout + process.stderr
 
     def refused(self, *arguments):

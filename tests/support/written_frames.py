@@ -1,4 +1,5 @@
-"""Meshes as VTK has them: those that the program writes, read by VTK and not by the program's own code, and surfaces for it to read."""
+"""Meshes as VTK has them: those that the program writes, read by VTK and not by the program's own code, and surfaces
+for it to read."""
 import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy

@@ -43,12 +43,14 @@ def text(program):
     for verb in program["verbs"]:
         words, files = words_of(verb)
         listed = f'; words="{words}"' if "$" in words else f"; words='{words}'" if words else ""
-        cases.append(f"        {verb['name']}) options='{' '.join(names_of(verb['options']))}'; files={files}{listed} ;;")
+        cases.append(f"        {verb['name']}) options='{' '.join(names_of(verb['options']))}'; "
+                     f"files={files}{listed} ;;")
         for option in verb["options"]:
             if option["names"] and option["value"]:
                 patterns = "|".join(f"{verb['name']}:{name}" for name in option["names"])
                 choices = " ".join(option["choices"])
                 files = "yes" if option["value"] == "TEXT" and not choices else "no"
                 values.append(f"        {patterns}) words='{choices}'; files={files} ;;")
-    return frame.format(options=" ".join(names_of(program["options"])), verbs=" ".join(verb["name"] for verb in program["verbs"]),
-                        cases="\n".join(cases), values="\n".join(values))
+    return frame.format(options=" ".join(names_of(program["options"])),
+                        verbs=" ".join(verb["name"] for verb in program["verbs"]), cases="\n".join(cases),
+                        values="\n".join(values))

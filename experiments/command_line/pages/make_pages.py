@@ -1,7 +1,9 @@
-"""The manual pages, the manual of scene files and the completions of bash and zsh, written from the program's description of itself.
+"""The manual pages, the manual of scene files and the completions of bash and zsh, written from the program's
+description of itself.
 
     pbskin --describe > command_line.json
-    python3 make_pages.py command_line.json DIR VERSION     # DIR/pbskin.1, pbskin-scene.5, scene_manual.md, pbskin, _pbskin
+    # writes DIR/pbskin.1, pbskin-scene.5, scene_manual.md, pbskin, _pbskin
+    python3 make_pages.py command_line.json DIR VERSION
 """
 import json
 import pathlib
@@ -24,7 +26,8 @@ def main(description, folder, version):
             option["listed"] = listed.get((verb["name"], option["name"]), "")
     folder.mkdir(parents=True, exist_ok=True)
     keys = program["scene_keys"]
-    for name, text in (("pbskin.1", man_page.text(program, version)), ("pbskin-scene.5", scene_manual.man(keys, version)),
+    for name, text in (("pbskin.1", man_page.text(program, version)),
+                       ("pbskin-scene.5", scene_manual.man(keys, version)),
                        ("scene_manual.md", scene_manual.markdown(keys)), ("pbskin", bash_completion.text(program)),
                        ("_pbskin", zsh_completion.text(program))):
         (folder / name).write_text(text, encoding="utf-8")

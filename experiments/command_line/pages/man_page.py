@@ -8,7 +8,8 @@ statuses = (("0", "finished, whatever the verdicts"),
             ("2", "bad input or usage"),
             ("3", "numerical breakdown in a run that was expected to finish"),
             ("130", "interrupted; what was finished is kept"))
-variables = (("PBSKIN_MODULES", "folder of the program's modules; beside the program by default"), ("NO_COLOR", "set: no colours"))
+variables = (("PBSKIN_MODULES", "folder of the program's modules; beside the program by default"),
+             ("NO_COLOR", "set: no colours"))
 
 
 def escaped(text):
@@ -39,7 +40,8 @@ def synopsis(program, verb):
 
 
 def title_line(name, section, version, manual):
-    date = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())), datetime.timezone.utc).date()
+    date = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())),
+                                           datetime.timezone.utc).date()
     return f'.TH {name} {section} "{date}" "pbskin {version}" "{manual}"'
 
 

@@ -32,10 +32,11 @@ def arguments(options):
 
 def text(program):
     lines = ["#compdef pbskin", "# zsh completion of pbskin; written from its own command line",
-             "local -a verbs=(" + " ".join(f"'{verb['name']}:{quoted(verb['meaning'])}'" for verb in program["verbs"]) + ")",
+             "local -a verbs=(" + " ".join(f"'{verb['name']}:{quoted(verb['meaning'])}'"
+                                           for verb in program["verbs"]) + ")",
              "local context state state_descr line", "typeset -A opt_args",
-             f"_arguments -C {arguments(program['options'])} '1:verb:->verb' '*::argument:->argument'", "case $state in",
-             "    verb) _describe verb verbs ;;", "    argument)", "        case $line[1] in"]
+             f"_arguments -C {arguments(program['options'])} '1:verb:->verb' '*::argument:->argument'",
+             "case $state in", "    verb) _describe verb verbs ;;", "    argument)", "        case $line[1] in"]
     for verb in program["verbs"]:
         lines.append(f"            {verb['name']}) _arguments {arguments(verb['options'])} ;;")
     return "\n".join(lines + ["        esac ;;", "esac"]) + "\n"

@@ -1,6 +1,7 @@
-"""Runs repeat to the bit: state hashes and records do not depend on the number of threads, the environment, the folder in which the program
-starts, the addresses of memory, or the number of concurrent runs. Reference: the same run, repeated. Meshes: a foreign arm, which can be
-small or large enough to be shared among threads, and the human, where it is installed."""
+"""Runs repeat to the bit: state hashes and records do not depend on the number of threads, the environment, the folder
+in which the program starts, the addresses of memory, or the number of concurrent runs. Reference: the same run,
+repeated. Meshes: a foreign arm, which can be small or large enough to be shared among threads, and the human, where it
+is installed."""
 import itertools
 import json
 import os
@@ -14,12 +15,13 @@ import reliability
 import run_records
 
 LONG = bool(os.environ.get("PBS_LONG"))
-ALL = ('["lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "pbs_author", "xpbd", "xpbd_small_steps", "quasi_newton", "vbd", '
-       '"warped_newton", "xpbd_neo_hookean", "projective_dynamics"]')
+ALL = ('["lbs", "dqs", "delta_mush", "direct_delta_mush", "pbs", "pbs_author", "xpbd", "xpbd_small_steps", '
+       '"quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics"]')
 WITH_ORDERS = '["pbs", "xpbd", "xpbd_small_steps"]'
 FEM = '[[fem]]\nname = "p1"\nmodel = "linear"\n[[fem]]\nname = "snh"\nmodel = "stable_neo_hookean"\n'
 # Threads share the same vertices in each iteration; direct_delta_mush iterates before the first pose.
-ITERATED = ("direct_delta_mush", "pbs", "quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean", "projective_dynamics")
+ITERATED = ("direct_delta_mush", "pbs", "quasi_newton", "vbd", "warped_newton", "xpbd_neo_hookean",
+            "projective_dynamics")
 ORDERS, PRECISIONS = ["plain", "ordered", "grouped"], ["f32", "f64"]
 BLAS_THREADS = [{"OPENBLAS_NUM_THREADS": n, "OMP_NUM_THREADS": n} for n in "124"]
 ENVIRONMENTS = [{"LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8"}, {"LC_ALL": "C"}, {"TZ": "Asia/Kathmandu"},
@@ -31,7 +33,8 @@ class SameRecords(program.ProgramTest):
 
     @classmethod
     def tearDownClass(cls):
-        reliability.tell("hashes", "state hashes compared with those of another run and found equal", cls.equal, cls.compared)
+        reliability.tell("hashes", "state hashes compared with those of another run and found equal", cls.equal,
+                         cls.compared)
 
     def write_arm(self, cells, use, frames=3, more=""):
         foreign_arm.write_msh(self.path("arm.msh"), *foreign_arm.mesh(cells))
@@ -80,7 +83,8 @@ class SameRecords(program.ProgramTest):
             sets += ["--set", f'pbs.order="{order}"', "--set", f'pbs.precision="{precision}"',
                      "--set", f'xpbd.order="{order}"', "--set", f'xpbd.precision="{precision}"']
             all_once = ALL if (order, precision) == settings[0] else WITH_ORDERS
-            # 16,704 vertices, since vbd shares 16,384 or more; slender, so that the factors of warped_newton have few entries
+            # 16,704 vertices, since vbd shares 16,384 or more; slender, so that the factors of warped_newton have few
+            # entries
             scene = self.write_arm((260, 7, 7), all_once, frames=2)
             alone = self.run_once(scene, *sets, "--threads", 1)
             for threads in (2, 4) if LONG else (4,):
@@ -88,7 +92,8 @@ class SameRecords(program.ProgramTest):
                     self.expect_same(alone, self.run_once(scene, *sets, "--threads", threads), but_threads=True)
 
     def test_the_reference_whatever_its_algebra_is_told(self):
-        """On a mesh whose dense blocks OpenBLAS would share among threads; unit/reference_fem tests what that would change."""
+        """On a mesh whose dense blocks OpenBLAS would share among threads; unit/reference_fem tests what that would
+        change."""
         scene = self.write_arm((14, 4, 4), '["p1", "snh"]', more=FEM)  # 375 vertices
         first = self.run_once(scene, env=os.environ | BLAS_THREADS[0])
         for change in BLAS_THREADS[1:]:
@@ -111,14 +116,16 @@ class SameRecords(program.ProgramTest):
         """The records of two studies with this number of concurrent runs. Of `frames`, only the limb is run."""
         runs = ["limb", "human", "limb_bend", "limb_bend_rigid", *(["limb_twist"] if LONG else [])]
         folder = self.path(str(jobs))
-        subprocess.run([program.PBSKIN, "reproduce", "momentum", "frames", *(word for run in runs for word in ("--only", run)),
+        subprocess.run([program.PBSKIN, "reproduce", "momentum", "frames",
+                        *(word for run in runs for word in ("--only", run)),
                         "-j", str(jobs), "-o", folder], check=True, capture_output=True)
         return run_records.records(folder)
 
     def test_runs_side_by_side(self):
         alone = self.records_of_jobs(1)
         first = run_records.state_hashes(alone)
-        self.assertLessEqual({f"frames/limb_bend/run.json {label}" for label in ("dqs", "pbs_contact", "nh_p1")}, first.keys())
+        self.assertLessEqual({f"frames/limb_bend/run.json {label}" for label in ("dqs", "pbs_contact", "nh_p1")},
+                             first.keys())
         self.assertIn("momentum/human/measurements.csv", alone)
         for jobs in (2, 4) if LONG else (4,):
             with self.subTest(jobs=jobs):

@@ -1,5 +1,5 @@
-"""`pbskin bench` as users run it: the fields of the contract, finite positive numbers, bad input refused. The runs are quick, and no time
-is judged. Reference: the contract in experiments/command_line/README.md."""
+"""`pbskin bench` as users run it: the fields of the contract, finite positive numbers, bad input refused. The runs are
+quick, and no time is judged. Reference: the contract in experiments/command_line/README.md."""
 import json
 import math
 import os
@@ -8,8 +8,9 @@ import unittest
 import foreign_arm
 import program
 
-RESULT = {"variant", "precision", "threads", "ns_stretch", "ns_volume", "ns_bind", "ms_step", "ratio_to_plain_spread", "ratio_to_plain",
-          "residual_to_plain_spread", "volume_rms_to_plain_spread", "residual_to_plain", "volume_rms_to_plain"}
+RESULT = {"variant", "precision", "threads", "ns_stretch", "ns_volume", "ns_bind", "ms_step", "ratio_to_plain_spread",
+          "ratio_to_plain", "residual_to_plain_spread", "volume_rms_to_plain_spread", "residual_to_plain",
+          "volume_rms_to_plain"}
 
 
 def numbers(value, path=""):
@@ -66,11 +67,13 @@ class Bench(foreign_arm.ArmTest):
         newton = fem["stable_neo_hookean"]
         self.assertTrue(newton["reached"])
         self.assertGreater(newton["iterations"], 1)
-        self.assertAlmostEqual(newton["ms_iteration"] * newton["iterations"], newton["ms_frame"], delta=1e-9 * newton["ms_frame"])
+        self.assertAlmostEqual(newton["ms_iteration"] * newton["iterations"], newton["ms_frame"],
+                               delta=1e-9 * newton["ms_frame"])
         for timing in fem.values():
-            self.assertAlmostEqual(timing["ns_tet"] * record["mesh"]["tets"] * timing.get("iterations", 1), 1e6 * timing["ms_frame"],
-                                   delta=1e-3 * timing["ms_frame"])
-            self.assertFalse([key for key in timing if key.startswith("ratio_to_plain")])  # there is no plain implementation
+            self.assertAlmostEqual(timing["ns_tet"] * record["mesh"]["tets"] * timing.get("iterations", 1),
+                                   1e6 * timing["ms_frame"], delta=1e-3 * timing["ms_frame"])
+            # There is no plain implementation.
+            self.assertFalse([key for key in timing if key.startswith("ratio_to_plain")])
 
     def test_every_number_is_finite_and_every_time_positive(self):
         for path, value in numbers(self.record_of_arm()):
@@ -80,13 +83,17 @@ class Bench(foreign_arm.ArmTest):
 
     def test_ratios_are_to_plain_of_the_same_precision_and_to_plain_on_spread_constraints(self):
         record = self.record_of_arm()
-        self.assertEqual({result["ratio_to_plain"] for result in record["results"] if result["variant"] == "plain"}, {1})
-        self.assertEqual({one["ratio_to_plain_spread"] for one in record["yardsticks"] if one["variant"] == "plain_spread"}, {1})
+        self.assertEqual({result["ratio_to_plain"] for result in record["results"] if result["variant"] == "plain"},
+                         {1})
+        self.assertEqual({one["ratio_to_plain_spread"] for one in record["yardsticks"]
+                          if one["variant"] == "plain_spread"}, {1})
 
     def test_every_listed_deformer_is_timed(self):
-        listed = {line.split()[0] for line in self.succeeds("list", "deformers").stdout.splitlines() if line.startswith("  ")}
+        listed = {line.split()[0] for line in self.succeeds("list", "deformers").stdout.splitlines()
+                  if line.startswith("  ")}
         timed = self.record_of_arm()["deformers"]
-        self.assertEqual({timing["deformer"] for timing in timed}, listed - {"external", "correctives"})  # which a scene's table defines
+        # A scene's table defines these two.
+        self.assertEqual({timing["deformer"] for timing in timed}, listed - {"external", "correctives"})
         for timing in timed:
             if "left_out" not in timing:
                 ratio = set() if timing["deformer"] == "fem" else {"ratio_to_plain"}
@@ -116,11 +123,13 @@ class Bench(foreign_arm.ArmTest):
             self.refuses("--threads", "--threads", threads)
         self.refuses("--sizes = 5G: expected numbers of tets", "--sizes", "5G")
         self.refuses("", "--mesh", self.path("arm.msh"), "--sizes", "1K")
-        self.refuses("cannot be made", "--mesh", self.path("arm.msh"), "-o", os.path.join(self.path("arm.msh"), "below"))
+        self.refuses("cannot be made", "--mesh", self.path("arm.msh"), "-o",
+                     os.path.join(self.path("arm.msh"), "below"))
 
     def test_what_cannot_be_written_is_refused_before_anything_is_read(self):
         os.makedirs(self.path("out", "bench.json"))
-        self.refuses("bench.json: cannot be written: Is a directory", "--mesh", self.path("none.msh"), "-o", self.path("out"))
+        self.refuses("bench.json: cannot be written: Is a directory", "--mesh", self.path("none.msh"), "-o",
+                     self.path("out"))
 
 
 if __name__ == "__main__":

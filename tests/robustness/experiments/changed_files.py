@@ -1,7 +1,8 @@
-"""Random changes to a file of every kind that the program reads except rigs, which changed_rigs.py changes: 28 with fixed seeds and 1,000
-in ./check --long. Each ends in time: refused with the file and a rule, or with a sound result. Sound: every number is finite; a frame has
-the volume that its points give to the rest mesh's tets; tets hold the volume that their surface encloses within a factor of two; and what
-is written in another dialect has the result of the original."""
+"""Random changes to a file of every kind that the program reads except rigs, which changed_rigs.py changes: 28 with
+fixed seeds and 1,000 in ./check --long. Each ends in time: refused with the file and a rule, or with a sound result.
+Sound: every number is finite; a frame has the volume that its points give to the rest mesh's tets; tets hold the volume
+that their surface encloses within a factor of two; and what is written in another dialect has the result of the
+original."""
 import os
 import random
 import re
@@ -18,8 +19,8 @@ import written_frames
 LEAST_SHARE_READ = 0.2  # of the changes; most others break a rule of the format
 MOST_PROCESSOR_S = 60.0
 ROUNDED_PCT = 1e-4  # single precision in a file with binary or short numbers
-WORDS = ["nan", "inf", "-inf", "1e999", "1.#QNAN", "1,5", "2.9D-01", "--1", "1.5.2", "0x10", "9" * 30, "", "abc", "-1", "0", "1e30",
-         "1e-30"]
+WORDS = ["nan", "inf", "-inf", "1e999", "1.#QNAN", "1,5", "2.9D-01", "--1", "1.5.2", "0x10", "9" * 30, "", "abc", "-1",
+         "0", "1e30", "1e-30"]
 NUMBER = re.compile(rb"(?<![\w.#])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
 
 
@@ -42,7 +43,8 @@ def change_number(text, choices):
         return text
     found = choices.choice(numbers)
     number = float(found[0])
-    others = [str(int(number) + choices.choice((-1, 1))), repr(number * 10 ** choices.uniform(-4, 4)), repr(-number), *WORDS]
+    others = [str(int(number) + choices.choice((-1, 1))), repr(number * 10 ** choices.uniform(-4, 4)), repr(-number),
+              *WORDS]
     return text[:found.start()] + choices.choice(others).encode() + text[found.end():]
 
 
@@ -65,7 +67,8 @@ def change_bytes(text, choices):
     kind = choices.choice(("flip", "cut", "insert", "end"))
     if kind == "end":
         return text[:at]
-    new = {"cut": b"", "flip": bytes(choices.randrange(256) for _ in range(length)), "insert": bytes([choices.randrange(256)])}[kind]
+    new = {"cut": b"", "flip": bytes(choices.randrange(256) for _ in range(length)),
+           "insert": bytes([choices.randrange(256)])}[kind]
     return text[:at] + new + text[at + (0 if kind == "insert" else length):]
 
 
@@ -110,7 +113,8 @@ class Kind:
 
 
 RUN = ["run", "{scene}", "-o", "out", "--set"]
-MEASURE, MESH = ["measure", "arm.vtu", "{file}", "--csv", "out.csv"], ["mesh", "{file}", "-o", "out.vtu", "--vertices", "200"]
+MEASURE, MESH = ["measure", "arm.vtu", "{file}", "--csv", "out.csv"], ["mesh", "{file}", "-o", "out.vtu", "--vertices",
+                                                                       "200"]
 TETS = [Kind(name, name.split(" ")[0], MEASURE, numpy.array(sound_files.POINTS)) for name in mesh_texts.FORMATS]
 SURFACES = [Kind(name, "." + name.split(".")[1].split(" ")[0], MESH, numpy.array(sound_files.CORNERS, dtype=float))
             for name in (*mesh_texts.SURFACES, "twenty triangles.glb")]
@@ -121,7 +125,8 @@ SCENES = [Kind("scene", ".toml", ["run", "{file}", "-o", "out"])]
 KINDS = [*TETS, *SURFACES, *OTHERS, *SCENES]
 # One of each kind, and those that have the changes which the first ones lack.
 SEEDS = range(1000) if os.environ.get("PBS_LONG") else [*range(len(KINDS)), 26, 48, 94, 115, 164]
-CHANGES = {f"{kind} {name}" for kind, names in (("text", TEXT_CHANGES), ("dialect", DIALECTS), ("points", POINT_CHANGES)) for name in names}
+CHANGES = {f"{kind} {name}" for kind, names in (("text", TEXT_CHANGES), ("dialect", DIALECTS),
+                                                ("points", POINT_CHANGES)) for name in names}
 
 
 class ChangedFiles(program.ProgramTest):
@@ -178,7 +183,8 @@ class ChangedFiles(program.ProgramTest):
         if points is not None and kind.command == MEASURE:
             tets = numpy.array(sound_files.TETS)
             rest = volume(kind.points, tets)
-            self.assertAlmostEqual(float(self.rows("out.csv")[0]["volume_change_pct"]), 100 * (volume(points, tets) - rest) / rest,
+            self.assertAlmostEqual(float(self.rows("out.csv")[0]["volume_change_pct"]),
+                                   100 * (volume(points, tets) - rest) / rest,
                                    delta=ROUNDED_PCT * max(1.0, abs(volume(points, tets) / rest)))
         if points is not None and kind.command == MESH:
             inside = abs(enclosed(points, numpy.array(sound_files.FACES)))
@@ -200,7 +206,8 @@ class ChangedFiles(program.ProgramTest):
                 else:
                     self.assertEqual(process.returncode, 2, process.stderr)
                     case = bad_case.Case(kind.name, {kind.file: content}, [kind.file], ())
-                    self.assertEqual(list(bad_case.what_is_wrong_with(process.stderr, case, sound_files.COMMON)), [], process.stderr)
+                    self.assertEqual(list(bad_case.what_is_wrong_with(process.stderr, case, sound_files.COMMON)), [],
+                                     process.stderr)
         self.assertEqual(seen, CHANGES)
         self.assertGreaterEqual(read, LEAST_SHARE_READ * len(SEEDS))
 

@@ -1,6 +1,7 @@
-"""Inputs that shrink, vanish or are replaced while they are read or played. A file that changes while it is read gives the result of the
-whole file, or is refused by name, at whatever moment it changes; each changed state by itself is refused. A run whose clip vanishes or is
-replaced ends normally, and its record states the bytes that were read. Reference: the results for the whole, unchanged file."""
+"""Inputs that shrink, vanish or are replaced while they are read or played. A file that changes while it is read gives
+the result of the whole file, or is refused by name, at whatever moment it changes; each changed state by itself is
+refused. A run whose clip vanishes or is replaced ends normally, and its record states the bytes that were read.
+Reference: the results for the whole, unchanged file."""
 import json
 import os
 import pathlib
@@ -28,7 +29,8 @@ READ = {"x.vtu": (COMMON["arm.vtu"], ["measure", "x.vtu", "x.vtu", "--csv", "out
         "x.obj": (mesh_texts.obj(200 * sound_files.CORNERS, sound_files.FACES),
                   ["mesh", "x.obj", "-o", "out/t.vtu", "--vertices", "150", "--wrap-alpha", "0.05"]),
         "y.vtu": (COMMON["arm.vtu"], ["run", "arm.toml", *RUN, "--set", "character.mesh=y.vtu"]),
-        "y.skeleton.toml": (foreign_arm.SKELETON, ["run", "arm.toml", *RUN, "--set", "character.skeleton=y.skeleton.toml"]),
+        "y.skeleton.toml": (foreign_arm.SKELETON,
+                            ["run", "arm.toml", *RUN, "--set", "character.skeleton=y.skeleton.toml"]),
         "x.bvh": (COMMON["good.bvh"], ["run", "clip.toml", *RUN, "--set", "motion.clip=x.bvh"]),
         "x.csv": (sound_files.WEIGHTS, ["run", "arm.toml", *RUN, "--set", "skinning.weights=x.csv"]),
         "x.toml": (COMMON["arm.toml"], ["run", "x.toml", *RUN])}
@@ -79,7 +81,8 @@ class ChangingFiles(unittest.TestCase):
         out = self.folder / "out"
         shutil.rmtree(out, ignore_errors=True)
         out.mkdir()
-        process = subprocess.run([bad_case.PBSKIN, *command], cwd=self.folder, capture_output=True, text=True, timeout=240)
+        process = subprocess.run([bad_case.PBSKIN, *command], cwd=self.folder, capture_output=True, text=True,
+                                 timeout=240)
         return process.returncode, process.stderr, written(out) if process.returncode == 0 else None
 
     def expect_refused(self, name, status, told):

@@ -1,8 +1,8 @@
-"""`pbskin check` as a CI server runs it: exit status, JUnit (read back by Python's own parser), GitHub's annotations and summary, and the
-baseline. Reference: the contract in experiments/command_line/README.md; whether a bound holds is decided here, from the values of the
-frames. The steps of .github/workflows/volume.yml, and of the example for another repository, work as described: those of pbskin are run in
-a folder of their own by the shell of a container's job, and those that build name functions, presets and targets that exist. Reference: the
-files themselves."""
+"""`pbskin check` as a CI server runs it: exit status, JUnit (read back by Python's own parser), GitHub's annotations
+and summary, and the baseline. Reference: the contract in experiments/command_line/README.md; whether a bound holds is
+decided here, from the values of the frames. The steps of .github/workflows/volume.yml, and of the example for another
+repository, work as described: those of pbskin are run in a folder of their own by the shell of a container's job, and
+those that build name functions, presets and targets that exist. Reference: the files themselves."""
 import csv
 import json
 import os
@@ -35,7 +35,8 @@ class Check(foreign_arm.ArmTest):
                          env={**self.environment, **environment})
 
     def volume_changes(self):
-        return [float(row["volume_change_pct"]) for row in self.rows("out", "arm", "metrics.csv") if row["deformer"] == "lbs"]
+        return [float(row["volume_change_pct"]) for row in self.rows("out", "arm", "metrics.csv")
+                if row["deformer"] == "lbs"]
 
     def message_of(self, kind, *key):
         """The message of the failure or error of a case."""
@@ -58,8 +59,10 @@ class Check(foreign_arm.ArmTest):
     def test_own_bounds_and_baseline_hold_whatever_lies_in_the_folder(self):
         os.mkdir(self.path("experiments"))
         self.write(os.path.join("experiments", "limb_twist"), "no scene")
-        process = program.run("check", "-o", "own", "--junit", "own.xml", "--require-all", env=self.environment, cwd=self.folder)
-        other_meshes = run_records.scenes_of_another_mesh(self.path("own"))  # meshes of another CGAL, whose baselines must differ
+        process = program.run("check", "-o", "own", "--junit", "own.xml", "--require-all", env=self.environment,
+                              cwd=self.folder)
+        # Meshes of another CGAL, whose baselines must differ.
+        other_meshes = run_records.scenes_of_another_mesh(self.path("own"))
         failed = run_records.failed_cases(self.path("own.xml"))
         self.assertEqual(failed, run_records.baselines_of(other_meshes, self.path("own.xml")), process.stderr)
         self.assertEqual(process.returncode, 1 if failed else 0, process.stderr)
@@ -80,13 +83,15 @@ class Check(foreign_arm.ArmTest):
         worst = change.index(min(change))
         self.assertGreater(worst, 0)
         self.write("check.toml", BOUNDS % (change[worst] + 1e-3))
-        process = self.check(1, "--junit", self.path("volume.xml"), "--github", GITHUB_STEP_SUMMARY=self.path("summary.md"))
+        process = self.check(1, "--junit", self.path("volume.xml"), "--github",
+                             GITHUB_STEP_SUMMARY=self.path("summary.md"))
         failure = self.message_of("failure", *VOLUME)
         found = re.match(r"frame (\d+): volume_change_pct of lbs = (\S+) %, expected at least", failure)
         self.assertEqual(int(found[1]), worst)
         self.assertAlmostEqual(float(found[2]), change[worst], places=3)
         self.assertIn(failure, process.stderr)
-        annotation = "::error file=%s,line=5,title=arm volume%%2C 100 %%25 <of> & \"rest\"::%s" % (self.bounds, failure.replace("%", "%25"))
+        annotation = "::error file=%s,line=5,title=arm volume%%2C 100 %%25 <of> & \"rest\"::%s" % (
+            self.bounds, failure.replace("%", "%25"))
         self.assertIn(annotation, process.stdout.splitlines())
         self.assertIn("| FAILS | arm |", self.read("summary.md"))
 
@@ -98,8 +103,8 @@ class Check(foreign_arm.ArmTest):
     def test_another_accuracy_or_count_fails_and_wall_time_does_not(self):
         self.check(0, "--write-baseline", self.baseline)
         kept = self.read("baseline.csv")
-        for column, change in (("volume_change_pct", lambda v: v + 2e-4), ("tets", lambda v: v + 1), ("inverted_tets", lambda v: v + 1),
-                               ("j_min", lambda v: float("nan"))):
+        for column, change in (("volume_change_pct", lambda v: v + 2e-4), ("tets", lambda v: v + 1),
+                               ("inverted_tets", lambda v: v + 1), ("j_min", lambda v: float("nan"))):
             self.altered_baseline(column, change)
             self.check(1, "--baseline", self.baseline, "--junit", self.path("volume.xml"))
             failure = self.message_of("failure", "arm", "baseline of pbs")
@@ -142,9 +147,11 @@ class Check(foreign_arm.ArmTest):
     def test_bad_baselines_and_bounds(self):
         self.check(0, "--write-baseline", self.baseline)
         kept, good = self.read("baseline.csv"), BOUNDS % "-60.0"
-        for text, message in (("", "the file is empty"), ("a,b\n1,2\n", "missing: expected a file of `pbskin check --write-baseline`"),
+        for text, message in (("", "the file is empty"),
+                              ("a,b\n1,2\n", "missing: expected a file of `pbskin check --write-baseline`"),
                               (kept[:-20], "cut off"), (kept.replace("arm,pbs,3,", "arm,pbs,three,"), "three"),
-                              (kept + kept.splitlines()[1] + "\n", "expected each frame of a scene's deformer once: it is in line 2 too")):
+                              (kept + kept.splitlines()[1] + "\n", "expected each frame of a scene's deformer once: "
+                                                                   "it is in line 2 too")):
             self.write("baseline.csv", text)
             process = self.check(2, "--baseline", self.baseline)
             self.assertRegex(process.stderr, r"pbskin: \S*baseline\.csv.*" + re.escape(message))
@@ -160,7 +167,8 @@ class Check(foreign_arm.ArmTest):
         self.check(2, "--junit", self.path("volume.xml"), "--github", "--require-all", **empty)
         process = self.check(0, "--junit", self.path("volume.xml"), "--github", **empty)
         cases = run_records.junit_cases(self.path("volume.xml"))
-        self.assertEqual([key for key, case in cases.items() if case.find("skipped") is not None], [("man_01_01", "runs")])
+        self.assertEqual([key for key, case in cases.items() if case.find("skipped") is not None],
+                         [("man_01_01", "runs")])
         self.assertIn("::warning file=", process.stdout)
 
     def test_poses_that_are_not_reached_and_breakdowns_are_exit_3_and_errors_in_junit(self):
@@ -186,7 +194,8 @@ EXPORT = pathlib.Path(__file__).with_name("export_frames.sh.in").read_text()
 
 
 def steps(workflow=WORKFLOW):
-    """The script of each step that has one, by its name: `run: COMMAND`, or `run: |` and the lines with deeper indentation."""
+    """The script of each step that has one, by its name: `run: COMMAND`, or `run: |` and the lines with deeper
+    indentation."""
     found, name, block = {}, None, None
     for line in workflow.read_text(encoding="utf-8").splitlines():
         depth = len(line) - len(line.lstrip())
@@ -204,8 +213,10 @@ def steps(workflow=WORKFLOW):
 
 class Workflows(program.ProgramTest):
     def test_every_step_is_a_script(self):
-        for workflow, names in ((WORKFLOW, ["Certificates and git", "Build", "Hold the bounds", "Measure written frames"]),
-                                (ELSEWHERE, ["Certificates and git", "Packages", "Build", "Export frames", "Hold the bounds"]),
+        for workflow, names in ((WORKFLOW, ["Certificates and git", "Build", "Hold the bounds",
+                                            "Measure written frames"]),
+                                (ELSEWHERE, ["Certificates and git", "Packages", "Build", "Export frames",
+                                             "Hold the bounds"]),
                                 (RIG, ["Certificates and git", "Packages", "Build", "Hold the bound"])):
             self.assertEqual(list(steps(workflow)), names)
             for name, script in steps(workflow).items():
@@ -215,8 +226,10 @@ class Workflows(program.ProgramTest):
     def test_the_build_names_what_there_is(self):
         presets = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
         for packages, build in ((steps()["Build"], steps()["Build"]),
-                                *((steps(example)["Packages"], steps(example)["Build"]) for example in (ELSEWHERE, RIG))):
-            self.assertIn("provide_packages()", (SOURCE / re.search(r"source (\S+)", packages)[1]).read_text(encoding="utf-8"))
+                                *((steps(example)["Packages"], steps(example)["Build"])
+                                  for example in (ELSEWHERE, RIG))):
+            self.assertIn("provide_packages()",
+                          (SOURCE / re.search(r"source (\S+)", packages)[1]).read_text(encoding="utf-8"))
             self.assertIn(re.search(r"--preset (\S+)", build)[1], [preset["name"] for preset in presets])
             options = re.findall(r"-D(\w+)=", build)
             self.assertTrue(options)
@@ -224,12 +237,14 @@ class Workflows(program.ProgramTest):
                 self.assertIn(f"option({option} ", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"))
 
     def act(self, script, environment):
-        return subprocess.run([*SHELL, script], cwd=self.folder, env=environment, capture_output=True, text=True, timeout=120)
+        return subprocess.run([*SHELL, script], cwd=self.folder, env=environment, capture_output=True, text=True,
+                              timeout=120)
 
     def test_the_steps_of_pbskin_run(self):
         self.script("build/release/bin/pbskin", f'exec "{program.PBSKIN}" "$@"\n')
         environment = {**os.environ, "GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": self.path("summary.md")}
-        status = {name: self.act(steps()[name], environment).returncode for name in ("Hold the bounds", "Measure written frames")}
+        status = {name: self.act(steps()[name], environment).returncode
+                  for name in ("Hold the bounds", "Measure written frames")}
         report = self.path("results", "volume.xml")
         # meshes of another CGAL, whose baselines must differ
         other_meshes = run_records.scenes_of_another_mesh(self.path("results", "check"))
@@ -247,7 +262,8 @@ class Workflows(program.ProgramTest):
                 self.script("EXPORT_FRAMES", EXPORT.format(pbskin=program.PBSKIN, deformer=deformer))
                 for name in ("Export frames", "Hold the bounds"):
                     process = self.act(steps(ELSEWHERE)[name], os.environ)
-                    self.assertEqual(process.returncode, status if name == "Hold the bounds" else 0, process.stdout + process.stderr)
+                    self.assertEqual(process.returncode, status if name == "Hold the bounds" else 0,
+                                     process.stdout + process.stderr)
                 failed = run_records.failed_cases(self.path("results", "frames.xml"))
                 self.assertEqual(bool(failed), status == 1, failed)
 
@@ -257,7 +273,8 @@ class Workflows(program.ProgramTest):
         for options, status in (({}, 1), ({"one_joint": True}, 0)):
             with self.subTest(options):
                 rig_files.write("plain", self.path("MODEL.glb"), **options)
-                process = self.act(steps(RIG)["Hold the bound"].replace("--max-volume-change 3", "--max-volume-change 0.1"), os.environ)
+                process = self.act(steps(RIG)["Hold the bound"].replace("--max-volume-change 3",
+                                                                        "--max-volume-change 0.1"), os.environ)
                 self.assertEqual(process.returncode, status, process.stdout + process.stderr)
                 self.assertEqual(len(run_records.failed_cases(self.path("results", "volume.xml"))), status)
 

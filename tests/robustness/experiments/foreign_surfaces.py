@@ -1,5 +1,5 @@
-"""`pbskin measure` on surfaces that other programs export. Reference: a box stretched by s along one axis encloses 1 + s times its
-volume."""
+"""`pbskin measure` on surfaces that other programs export. Reference: a box stretched by s along one axis encloses 1 +
+s times its volume."""
 import itertools
 import os
 import unittest
@@ -64,12 +64,14 @@ def obj(points, faces):
 
 def off(points, faces):
     rows = "".join("%.17g %.17g %.17g\n" % tuple(point) for point in points)
-    return f"OFF\n{len(points)} {len(faces)} 0\n" + rows + "".join(f"{len(face)} {' '.join(map(str, face))}\n" for face in faces)
+    return f"OFF\n{len(points)} {len(faces)} 0\n" + rows + "".join(f"{len(face)} {' '.join(map(str, face))}\n"
+                                                                   for face in faces)
 
 
 def ply(points, faces):
     rows = "".join("%.17g %.17g %.17g\n" % tuple(point) for point in points)
-    return (f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\nproperty double z\n"
+    return (f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\nproperty "
+            "double z\n"
             f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n" + rows
             + "".join(f"{len(face)} {' '.join(map(str, face))}\n" for face in faces))
 
@@ -127,7 +129,8 @@ class ForeignSurfaces(program.ProgramTest):
         angles = 2 * numpy.pi * numpy.arange(8) / 8
         ring = numpy.stack([numpy.cos(angles), numpy.sin(angles), 0 * angles], axis=1)
         points = numpy.vstack([ring, ring + [0, 0, 1]])
-        faces = [tuple(range(7, -1, -1)), tuple(range(8, 16))] + [(k, (k + 1) % 8, 8 + (k + 1) % 8, 8 + k) for k in range(8)]
+        faces = [tuple(range(7, -1, -1)), tuple(range(8, 16))] + [(k, (k + 1) % 8, 8 + (k + 1) % 8, 8 + k)
+                                                                  for k in range(8)]
         for extension in (".obj", ".ply", ".vtp"):
             self.write_surface("rest" + extension, points, faces)
             for corner in range(8, 16):
@@ -140,7 +143,8 @@ class ForeignSurfaces(program.ProgramTest):
         points, faces = joined((box(), QUADS))
         self.write_surface("rest.obj", points, triangles_of(faces))
         swapped = points[[1, 0, *range(2, 8)]]
-        self.write_surface("order.ply", swapped, [tuple({0: 1, 1: 0}.get(i, i) for i in face) for face in triangles_of(faces)])
+        self.write_surface("order.ply", swapped, [tuple({0: 1, 1: 0}.get(i, i) for i in face)
+                                                  for face in triangles_of(faces)])
         self.write_surface("rest.ply", points, triangles_of(faces))
         self.measure(2, "rest.ply", "order.ply", says="was the order of the vertices kept on export?")
         self.write_surface("fewer.ply", *joined((box()[:7], [face for face in triangles_of(faces) if 7 not in face])))
@@ -151,7 +155,8 @@ class ForeignSurfaces(program.ProgramTest):
     def test_seams_cavities_nested_bodies_and_open_shells(self):
         """The same numbers with and without seams: each face with points of its own."""
         hair = ([(5, 0, 0), (6, 0, 0), (5, 1, 0)], [(0, 1, 2)])
-        points, faces = joined((box(edge=4.0), QUADS), (box((1, 1, 1), 2.0), inward(QUADS)), (box((10, 0, 0)), QUADS), hair)
+        points, faces = joined((box(edge=4.0), QUADS), (box((1, 1, 1), 2.0), inward(QUADS)), (box((10, 0, 0)), QUADS),
+                               hair)
         split = joined(*[(points[list(face)], [tuple(range(len(face)))]) for face in faces])
         for name, (rest, rest_faces) in (("shared", (points, faces)), ("split", split)):
             with self.subTest(name):
@@ -162,7 +167,8 @@ class ForeignSurfaces(program.ProgramTest):
                 self.write_surface("frame.ply", frame, rest_faces)
                 process = self.measure(0, "rest.ply", "frame.ply", "--csv", "v.csv", "--shells", "s.csv",
                                        says="open shells = 1 of 4 shells (4 of 1 triangles): excluded")
-                self.assertIn("cavities = 1 of 4 shells (2 of 12 triangles): their volume is subtracted", process.stderr)
+                self.assertIn("cavities = 1 of 4 shells (2 of 12 triangles): their volume is subtracted",
+                              process.stderr)
                 row, = self.rows("v.csv")
                 self.assertAlmostEqual(float(row["volume_m3"]), 64 - 1 + 1, places=9)
                 self.assertAlmostEqual(float(row["volume_change_pct"]), 100 * 7 / (64 - 8 + 1), places=9)
@@ -172,11 +178,13 @@ class ForeignSurfaces(program.ProgramTest):
 
     def test_a_surface_without_a_closed_shell_is_refused(self):
         self.write_surface("open.obj", box(), QUADS[:1])
-        self.measure(2, "open.obj", "open.obj", says="closed shells = 0 of 1: expected a surface that encloses a volume; its largest "
-                     "shell, 1, has 4 edges that do not lie between two triangles, first from")
+        self.measure(2, "open.obj", "open.obj", says="closed shells = 0 of 1: expected a surface that encloses a "
+                                                     "volume; its largest shell, 1, has 4 edges that do not lie "
+                                                     "between two triangles, first from")
 
     def test_a_small_closed_part_of_an_open_surface_is_named(self):
-        points, faces = joined((box(edge=10.0), QUADS[:1]), (box((20, 0, 0)), QUADS))  # a sheet of 100 m^2 and a box of 6
+        # A sheet of 100 m^2 and a box of 6.
+        points, faces = joined((box(edge=10.0), QUADS[:1]), (box((20, 0, 0)), QUADS))
         self.write_surface("rest.obj", points, faces)
         self.measure(0, "rest.obj", "rest.obj", says="closed shells = 6 % of the surface's area")
 
@@ -189,33 +197,38 @@ class ForeignSurfaces(program.ProgramTest):
             self.write_surface(f"{name}_moved.obj", rest[0] + 3.0, rest[1])
             self.write_surface(f"{name}_wider.obj", stretched(rest[0], 10.0), rest[1])
         self.assertAlmostEqual(self.changes("box.obj", "box_wider.obj")[0], 10.0, places=6)
-        # The corners of the rim are 5 % of the edge from a rigid motion, and the cap has 1.1 of a face's area: 4.5 to 15.5 %.
+        # The corners of the rim are 5 % of the edge from a rigid motion, and the cap has 1.1 of a face's area: 4.5 to
+        # 15.5 %.
         for most, status in (("4.4", 1), ("4.6", 2), ("9.9", 2), ("10.1", 2), ("15.4", 2), ("15.6", 0)):
             self.measure(status, "box.obj", "box_wider.obj", "--max-volume-change", most)
         limit = "--max-volume-change", "11"
         self.measure(0, "box.obj", "box_moved.obj", *limit, "--junit", "r.xml")  # rigidly
         self.assertIn('name="measured_share_of_area_pct" value="100.0"', self.read("r.xml"))
-        self.measure(2, "with_sheet.obj", "with_sheet_moved.obj", *limit, "--junit", "r.xml", says="the whole body was not judged: closed "
+        self.measure(2, "with_sheet.obj", "with_sheet_moved.obj", *limit, "--junit", "r.xml",
+                     says="the whole body was not judged: closed "
                      "and capped shells are 56 % of the surface's area, and 1 open shell is excluded")
         self.assertIn('errors="1"', self.read("r.xml"))
         self.write_surface("box_and_closed.obj", *joined((box(), QUADS[:5]), (box((5, 0, 0)), QUADS)))
-        self.measure(0, "box_and_closed.obj", "box_and_closed.obj", *limit, "--closed-only", says="open shells = 1 of 2")
+        self.measure(0, "box_and_closed.obj", "box_and_closed.obj", *limit, "--closed-only",
+                     says="open shells = 1 of 2")
 
     def test_an_output_that_is_an_input_is_refused(self):
         self.write_surface("rest.obj", box(), QUADS)
         before = self.read("rest.obj")
         os.link(self.path("rest.obj"), self.path("link.obj"))
         for output in ("rest.obj", "./rest.obj", "link.obj"):
-            self.measure(2, "rest.obj", "rest.obj", "--csv", output, says=f"--csv = {output}: expected another file than the input")
-        self.measure(2, "rest.obj", "rest.obj", "--csv", "x", "--junit", "./x", says="expected another file than that of --csv")
+            self.measure(2, "rest.obj", "rest.obj", "--csv", output, says=f"--csv = {output}: expected another file "
+                                                                          "than the input")
+        self.measure(2, "rest.obj", "rest.obj", "--csv", "x", "--junit", "./x",
+                     says="expected another file than that of --csv")
         self.assertEqual(self.read("rest.obj"), before)
 
     def test_coordinates_of_single_precision_far_from_the_origin_are_named(self):
         """At 2^22 m the step between floats is 0.5 m."""
         far = box() + [2.0 ** 22, 0, 0]
         self.write_surface("far.obj", far, QUADS)
-        self.measure(0, "far.obj", "far.obj", says="coordinates in single precision up to 4.19e+06 from the origin, where they are "
-                     "multiples of 0.5")
+        self.measure(0, "far.obj", "far.obj", says="coordinates in single precision up to 4.19e+06 from the origin, "
+                                                   "where they are multiples of 0.5")
         self.measure(0, "far.obj", "far.obj", says="has only 3 steps, and the volume is not known")
         self.write_surface("exact.obj", far + [0.1, 0.1, 0.1], QUADS)
         self.assertNotIn("single precision", self.measure(0, "exact.obj", "exact.obj").stderr)
@@ -240,13 +253,15 @@ class ForeignSurfaces(program.ProgramTest):
             self.write_surface(f"f_{number}.obj", stretched(box(), percent), QUADS)
         process = self.measure(1, "rest.obj", "f_%d.obj", "--max-volume-change", "0.5", "--junit", "v.xml",
                                says="pbskin: f_1.obj: |volume_change_pct| = 8.5")
-        self.assertEqual(process.stdout.splitlines()[-1], "fails: 2 of 4 frames beyond 0.5 %, worst -8.5 % in frame f_1.obj")
+        self.assertEqual(process.stdout.splitlines()[-1], "fails: 2 of 4 frames beyond 0.5 %, worst -8.5 % in "
+                                                          "frame f_1.obj")
         self.assertEqual(run_records.failed_cases(self.path("v.xml")), {("rest.obj", "--max-volume-change 0.5")})
         self.assertNotIn("--max-volume-change", process.stderr.splitlines()[-1])
         process = self.measure(0, "rest.obj", "f_%d.obj", "--max-volume-change", "9")
         self.assertEqual(process.stdout.splitlines()[-1], "holds: 4 frames within 9 %, worst -8.5 % in frame f_1.obj")
         process = self.measure(0, "rest.obj", "f_%d.obj", says="--max-volume-change 0.5 holds the volume to a bound")
-        self.assertEqual(process.stdout.splitlines()[-1], "measured: 4 frames, volume -8.5 % in frame f_1.obj to 2 % in frame f_2.obj")
+        self.assertEqual(process.stdout.splitlines()[-1], "measured: 4 frames, volume -8.5 % in frame f_1.obj to 2 % "
+                                                          "in frame f_2.obj")
         self.measure(2, "rest.obj", "f_%d.obj", "--max-inverted", "0", says="--max-inverted = 0: a surface has no tets")
 
     def test_a_displacement_of_the_points(self):
@@ -256,7 +271,8 @@ class ForeignSurfaces(program.ProgramTest):
         self.measure(2, "rest.vtp", "frame.vtp", says="add --displacement u, or --displacement none")
         self.assertAlmostEqual(self.changes("rest.vtp", "frame.vtp", "--displacement", "u")[0], 7.0, places=9)
         self.measure(0, "rest.vtp", "frame.vtp", "--displacement", "none", says="nothing moves")
-        self.measure(2, "rest.vtp", "frame.vtp", "--displacement", "v", says="expected a vector of the points: it has u")
+        self.measure(2, "rest.vtp", "frame.vtp", "--displacement", "v", says="expected a vector of the points: "
+                                                                             "it has u")
 
     def test_a_frame_with_a_skin_is_refused(self):
         """Its points are those of the bind pose, whatever its nodes' pose."""

@@ -1,7 +1,7 @@
-"""A full disk is an error without half-written files: exit status 2, the file and the reason named, every other file complete. When there
-is space again, the same command, or --resume, ends with the records of an undisturbed run. A limit on the size of a file (ulimit -f)
-simulates the disk at every file's own size; a small tmpfs is a real one, where it can be mounted. Reference: the files of an undisturbed
-run."""
+"""A full disk is an error without half-written files: exit status 2, the file and the reason named, every other file
+complete. When there is space again, the same command, or --resume, ends with the records of an undisturbed run. A limit
+on the size of a file (ulimit -f) simulates the disk at every file's own size; a small tmpfs is a real one, where it can
+be mounted. Reference: the files of an undisturbed run."""
 import os
 import pathlib
 import re
@@ -39,17 +39,19 @@ class FullDisk(foreign_arm.ArmTest):
         return named
 
     def limited(self, size, *arguments, **options):
-        return program.run(*arguments, **options, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+        return program.run(*arguments, **options,
+                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
 
     def refused_at_every_size(self, *sets):
-        """The endings of files that could not be written, one for each size at which some file of the run does not fit. The size is nine
-        tenths of the file's own, since wall times change a file by less than that."""
+        """The endings of files that could not be written, one for each size at which some file of the run does not fit.
+        The size is nine tenths of the file's own, since wall times change a file by less than that."""
         whole, folder = pathlib.Path(self.path("whole")), pathlib.Path(self.path("out"))
         self.succeeds("run", self.scene, "-o", whole, *sets)
         sizes = sorted({path.stat().st_size for path in run_records.files(whole)})
         refused = []
         for size in sizes:
-            refused.append(self.expect_refused(self.limited(9 * size // 10, "run", self.scene, "-o", folder, *sets), folder).suffix)
+            refused.append(self.expect_refused(self.limited(9 * size // 10, "run", self.scene, "-o", folder, *sets),
+                                               folder).suffix)
             self.assertFalse((folder / "run.json").exists())
         self.succeeds("run", self.scene, "-o", folder, *sets)
         self.assertEqual(run_records.records(folder), run_records.records(whole))
@@ -74,15 +76,18 @@ class FullDisk(foreign_arm.ArmTest):
         self.assertEqual({path: path.read_bytes() for path in run_records.files(folder)}, earlier)
 
     @unittest.skipUnless(program.HAS_FEM, "the finite elements are not installed")
-    @unittest.skipIf(b"__asan_init" in pathlib.Path(program.PBSKIN).read_bytes(), "the address sanitizer reserves terabytes")
+    @unittest.skipIf(b"__asan_init" in pathlib.Path(program.PBSKIN).read_bytes(),
+                     "the address sanitizer reserves terabytes")
     def test_little_memory_ends_with_a_result_or_a_message(self):
         """Threads of OpenBLAS that find no memory ask for it for ever."""
         scene = self.write("newton.toml", pathlib.Path(self.scene).read_text())
-        users = {"OPENBLAS_CORETYPE": "Prescott"}  # a user who selects kernels: the library is loaded with the module alone
+        # A user who selects kernels: the library is loaded with the module alone.
+        users = {"OPENBLAS_CORETYPE": "Prescott"}
         for megabytes, environment in [(100, {}), (150, {}), (150, users), (200, users), (250, {})]:
             limit = megabytes * 1_000_000
-            ended = program.run("run", scene, "-o", self.path("newton"), "--set", 'deformers.use=["lbs","warped_newton"]',
-                                env=os.environ | environment, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+            ended = program.run("run", scene, "-o", self.path("newton"), "--set",
+                                'deformers.use=["lbs","warped_newton"]', env=os.environ | environment,
+                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
             self.assertIn(ended.returncode, (0, 2), ended.stderr)
             self.assertTrue(ended.returncode == 0 or "pbskin: " in ended.stderr, ended.stderr)
 
@@ -100,11 +105,13 @@ class FullDisk(foreign_arm.ArmTest):
         surface = self.write("good.off", mesh_texts.off(sound_files.CORNERS, sound_files.FACES))
         for name, arguments in {"figures.csv": ["measure", arm, arm, "--csv", self.path("figures.csv")],
                                 "figures.xml": ["measure", arm, arm, "--junit", self.path("figures.xml")],
-                                "tets.vtu": ["mesh", surface, "-o", self.path("tets.vtu"), "--vertices", 200, "--wrap-alpha", 0.05],
+                                "tets.vtu": ["mesh", surface, "-o", self.path("tets.vtu"), "--vertices", 200,
+                                             "--wrap-alpha", 0.05],
                                 "bench.json": ["bench", "--quick", "-o", self.path("bench")],
                                 "lbs_000000.vtu": ["check", "--bounds", bounds, "-o", self.path("check")]}.items():
             with self.subTest(name):
-                self.assertEqual(self.expect_refused(self.limited(100, *arguments), pathlib.Path(self.folder)).name, name)
+                self.assertEqual(self.expect_refused(self.limited(100, *arguments), pathlib.Path(self.folder)).name,
+                                 name)
 
     def test_the_page(self):
         folder = pathlib.Path(self.path("out"))
@@ -122,14 +129,16 @@ class FullDisk(foreign_arm.ArmTest):
         self.succeeds("run", scene, "-o", self.path("whole"), env={**os.environ, "PBSKIN_CACHE": str(whole)})
         size = max(path.stat().st_size for path in run_records.files(whole))
         self.assertGreater(size, 2 * max(path.stat().st_size for path in run_records.files(self.path("whole"))))
-        process = self.limited(9 * size // 10, "run", scene, "-o", self.path("out"), env={**os.environ, "PBSKIN_CACHE": str(cache)})
+        process = self.limited(9 * size // 10, "run", scene, "-o", self.path("out"),
+                               env={**os.environ, "PBSKIN_CACHE": str(cache)})
         self.assertEqual(process.returncode, 0, process.stderr)
         self.assertEqual([path for path in run_records.files(cache) if path.stat().st_size > 0], [])
         self.assertEqual(run_records.records(self.path("out")), run_records.records(self.path("whole")))
 
     def test_standard_output(self):
         arm = self.path("arm.msh")
-        for arguments in (["list"], ["explain", "pbs.k_volume"], ["measure", arm, arm], ["--version"], ["list", "--help"]):
+        for arguments in (["list"], ["explain", "pbs.k_volume"], ["measure", arm, arm], ["--version"],
+                          ["list", "--help"]):
             with self.subTest(arguments), open("/dev/full", "wb") as full:
                 process = subprocess.run([program.PBSKIN, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
                 self.assertEqual(process.returncode, 2)
@@ -138,13 +147,15 @@ class FullDisk(foreign_arm.ArmTest):
     def test_a_disk_that_fills_up(self):
         disk = pathlib.Path(self.path("disk"))
         disk.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", disk], capture_output=True).returncode != 0:
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", disk],
+                          capture_output=True).returncode != 0:
             self.skipTest("no tmpfs can be mounted here")
         self.addCleanup(subprocess.run, ["umount", disk], check=True)
         self.expect_refused(program.run("run", self.scene, "-o", disk / "out"), disk)
         subprocess.run(["mount", "-o", "remount,size=16m", disk], check=True)
         self.succeeds("run", self.scene, "-o", disk / "out")
-        reliability.tell("full_disk_mounted", "a disk that fills up under `run` (tmpfs): the same, and finished once there is room", 1, 1)
+        reliability.tell("full_disk_mounted", "a disk that fills up under `run` (tmpfs): the same, and finished once "
+                                              "there is room", 1, 1)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-"""The kept part of a study's records is sufficient to judge its claims again, and is kept as a whole or not at all. Reference: the verdicts
-from the complete records."""
+"""The kept part of a study's records is sufficient to judge its claims again, and is kept as a whole or not at all.
+Reference: the verdicts from the complete records."""
 import json
 import os
 import pathlib
@@ -26,11 +26,13 @@ class KeptRecords(program.ProgramTest):
         return results, kept
 
     def keep(self, results, kept):
-        return subprocess.run([sys.executable, "-B", str(KEEP), str(results), str(kept)], capture_output=True, text=True)
+        return subprocess.run([sys.executable, "-B", str(KEEP), str(results), str(kept)], capture_output=True,
+                              text=True)
 
     def test_numbers_have_six_digits_and_names_stay(self):
-        for cell, kept in (("0.1234567", "0.123457"), ("-1.5E-07", "-1.5e-07"), (".5", "0.5"), ("12345678", "12345678"), ("-3", "-3"),
-                           ("01_01", "01_01"), ("1_000", "1_000"), ("nan", "nan"), ("upper|forearm", "upper|forearm"), ("", "")):
+        for cell, kept in (("0.1234567", "0.123457"), ("-1.5E-07", "-1.5e-07"), (".5", "0.5"), ("12345678", "12345678"),
+                           ("-3", "-3"), ("01_01", "01_01"), ("1_000", "1_000"), ("nan", "nan"),
+                           ("upper|forearm", "upper|forearm"), ("", "")):
             self.assertEqual(keep.rounded(cell), kept)
 
     def test_verdicts_come_back(self):
@@ -54,8 +56,8 @@ class KeptRecords(program.ProgramTest):
 
     def test_each_run_has_its_tables_again(self):
         results, merged, opened = (pathlib.Path(self.path(name)) for name in ("results", "merged", "opened"))
-        tables = {"study/one/a.csv": "x,y\n1,\"p,q\"\n2,r\n", "study/two/a.csv": "y,z\ns,3\n", "study/two/b.csv": "only\n",
-                  "study/a.csv": "sum\n6\n", "study/costs.csv": "run,cpu_s\none,1\n"}
+        tables = {"study/one/a.csv": "x,y\n1,\"p,q\"\n2,r\n", "study/two/a.csv": "y,z\ns,3\n",
+                  "study/two/b.csv": "only\n", "study/a.csv": "sum\n6\n", "study/costs.csv": "run,cpu_s\none,1\n"}
         runs = {f"study/{run}/run.json": json.dumps({"schema": 3, "provenance": {"version": version}})
                 for run, version in (("one", "1"), ("two", "2"))}
         for name, text in (tables | runs | {"study/plan.json": '{"runs": []}'}).items():
@@ -110,22 +112,25 @@ class KeptRecords(program.ProgramTest):
         self.assertFalse(os.path.exists(self.path("outside")))
 
     def test_malformed_tables_and_origins_are_refused(self):
-        for message, changed in (("metrics.csv:2: one: expected a name and the cells of a row", {"table": "run,x\none\n"}),
-                                 ("metrics.csv:2: : expected a name", {"table": "run,x\n,1\n"}), ("metrics.csv: no rows", {"table": ""}),
-                                 ("provenance.json: not as", {"runs": 1})):
+        for message, changed in (("metrics.csv:2: one: expected a name and the cells of a row",
+                                  {"table": "run,x\none\n"}),
+                                 ("metrics.csv:2: : expected a name", {"table": "run,x\n,1\n"}),
+                                 ("metrics.csv: no rows", {"table": ""}), ("provenance.json: not as", {"runs": 1})):
             with self.subTest(changed), self.assertRaisesRegex(RecordsMissing, message):
                 kept_records.opened(self.kept_records(**changed))
 
     def test_files_that_are_not_kept_are_listed(self):
         results, kept = self.recorded("audit")
         long = "number\n" + "1\n" * 40_000
-        for name, text in (("lengths", long), ("rates", long), ("profiles", "x\n1\n")):  # the last two whatever their length
+        # The last two are listed whatever their length.
+        for name, text in (("lengths", long), ("rates", long), ("profiles", "x\n1\n")):
             (results / "audit" / "print" / f"{name}.csv").write_text(text)
         self.assertEqual(self.keep(results, kept).returncode, 0)
         rows = ["study,run,file,bytes", f"audit,print,lengths.csv,{len(long)}", "audit,print,profiles.csv,4"]
         self.assertEqual((kept / "not_kept.csv").read_text().splitlines(), rows)
         self.assertFalse((kept / "audit" / "runs" / "lengths.csv").exists())
-        self.assertEqual((kept / "audit" / "runs" / "rates.csv").read_text(), long.replace("number", "run,number").replace("1", "print,1"))
+        self.assertEqual((kept / "audit" / "runs" / "rates.csv").read_text(),
+                         long.replace("number", "run,number").replace("1", "print,1"))
 
     @staticmethod
     def noise(letters):

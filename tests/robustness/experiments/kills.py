@@ -1,7 +1,7 @@
-"""A run or study that is killed at any moment, by any signal, once or several times: its files are complete, no process of the program
-continues, and --resume keeps the runs that ended, does the others, and ends with the records and the state hashes of an undisturbed run.
-Reference: those records and the times of the files; the exit status in experiments/command_line/README.md; /proc. PBS_KILL_SEED determines
-the moments."""
+"""A run or study that is killed at any moment, by any signal, once or several times: its files are complete, no process
+of the program continues, and --resume keeps the runs that ended, does the others, and ends with the records and the
+state hashes of an undisturbed run. Reference: those records and the times of the files; the exit status in
+experiments/command_line/README.md; /proc. PBS_KILL_SEED determines the moments."""
 import functools
 import itertools
 import json
@@ -59,7 +59,8 @@ LIMB = ["limb_bend_rigid", "limb_twist", *(["limb_bend"] if LONG else [])]
 
 
 def begin_of_command(studies):
-    """Of the study `frames`, only the limb is run, and one run waits for another. The runs of the other studies go side by side."""
+    """Of the study `frames`, only the limb is run, and one run waits for another. The runs of the other studies go side
+    by side."""
     if "frames" in studies:
         return [program.PBSKIN, "reproduce", *studies, "-j", "1", *(word for run in LIMB for word in ("--only", run))]
     return [program.PBSKIN, "reproduce", *studies, "-j", "2"]
@@ -80,7 +81,8 @@ class Kills(program.ProgramTest):
 
     @classmethod
     def tearDownClass(cls):
-        reliability.tell("kills", "kills survived: whole files, no process left, the same records and state hashes after --resume",
+        reliability.tell("kills", "kills survived: whole files, no process left, the same records and state hashes "
+                                  "after --resume",
                          cls.survived, cls.kills, note=f"seed {SEED}, {cls.hashes:,} state hashes compared")
 
     def setUp(self):
@@ -101,7 +103,8 @@ class Kills(program.ProgramTest):
 
     def expect_nothing_goes_on(self, session):
         deadline = time.monotonic() + 1  # shorter than a run
-        while left := [pid for pid, (state, _, its_session) in program.statuses().items() if its_session == session and state != "Z"]:
+        while left := [pid for pid, (state, _, its_session) in program.statuses().items() if its_session == session
+                       and state != "Z"]:
             if time.monotonic() > deadline:
                 break
             time.sleep(0.01)
@@ -212,7 +215,8 @@ class ResumedStudy(program.ProgramTest):
         self.assertEqual((self.killed / "claims.json").read_text(), (whole / "claims.json").read_text())
 
     def test_a_part_of_the_runs(self):
-        """A verdict needs all runs of its study. Those that are not named are kept if they are finished with the same settings."""
+        """A verdict needs all runs of its study. Those that are not named are kept if they are finished with the same
+        settings."""
         results = self.whole
 
         def only(run):
@@ -239,7 +243,8 @@ class ResumedStudy(program.ProgramTest):
     def test_a_kept_breakdown_counts(self):
         results = self.whole
         shutil.copytree(undisturbed("momentum")[0], results)
-        alter(results / "momentum" / RUNS[0] / "run.json", lambda run: run["outcome"].update(breakdown="vertex 3 is not finite"))
+        alter(results / "momentum" / RUNS[0] / "run.json",
+              lambda run: run["outcome"].update(breakdown="vertex 3 is not finite"))
         resumed = subprocess.run(self.command(results, "--resume"), capture_output=True, text=True)
         self.assertEqual(resumed.returncode, 3, resumed.stderr)
         self.assertIn(f"{RUNS[0]}: numerical breakdown: vertex 3 is not finite", resumed.stderr)

@@ -1,5 +1,6 @@
-"""Surfaces on which the mesher would go on without end, and work that is interrupted: each ends soon, and leaves nothing half-written.
-Reference: the bounds in experiments/meshes/meshing_surface.cpp and the exit statuses in experiments/command_line/README.md."""
+"""Surfaces on which the mesher would go on without end, and work that is interrupted: each ends soon, and leaves
+nothing half-written. Reference: the bounds in experiments/meshes/meshing_surface.cpp and the exit statuses in
+experiments/command_line/README.md."""
 import os
 import signal
 import subprocess
@@ -49,29 +50,33 @@ class MeshingEnds(program.ProgramTest):
     def ends_soon(self, expected, surface, *arguments):
         """The process of `pbskin try` with this surface, which ends with the status `expected`."""
         start_s = program.processor_s()
-        process = self.ends(expected, "try", self.rig(surface), "-o", self.path("out"), "--no-reference", "--frames", "2", *arguments,
-                            env=self.environment)
-        # All attempts make up to 60,000 vertices, which take 1 ms each, and up to twice as long where other work fills the caches.
+        process = self.ends(expected, "try", self.rig(surface), "-o", self.path("out"), "--no-reference", "--frames",
+                            "2", *arguments, env=self.environment)
+        # All attempts make up to 60,000 vertices, which take 1 ms each, and up to twice as long where other work fills
+        # the caches.
         self.assertLess(program.processor_s() - start_s, 2 * 60.0)
         self.assertLess(program.most_memory_bytes(), program.MOST_BYTES)
         return process
 
     def test_an_open_tube_becomes_a_layer_and_the_warning_states_what_to_do(self):
         process = self.ends_soon(0, open_tube())
-        self.assertIn("3 of 3 bones lie outside the body: root, elbow, tip; the surface is open, and the tets fill a layer along it: "
-                      "close it", process.stderr)
+        self.assertIn("3 of 3 bones lie outside the body: root, elbow, tip; the surface is open, and the tets fill a "
+                      "layer along it: close it", process.stderr)
 
     def test_a_body_thinner_than_its_tets_is_enclosed_at_a_distance(self):
         process = self.ends_soon(0, flat_tube(), "--vertices", "300")
-        self.assertIn("parts of the body are thinner than the tets, which enclose it at a distance of 1.2 % of its size", process.stderr)
+        self.assertIn("parts of the body are thinner than the tets, which enclose it at a distance of 1.2 % of "
+                      "its size", process.stderr)
 
     @unittest.skipUnless(LONG, "takes 40 s")
     def test_open_boxes_that_reach_the_bounds(self):
         self.ends_soon(0, open_boxes())
 
     def interrupted(self, kill, *arguments):
-        """What was printed by a program that got the signal in the stage `filling the wrap`, whose line it had printed."""
-        process = subprocess.Popen([program.PBSKIN, *arguments], stderr=subprocess.PIPE, text=True, env=self.environment)
+        """What was printed by a program that got the signal in the stage `filling the wrap`, whose line it had
+        printed."""
+        process = subprocess.Popen([program.PBSKIN, *arguments], stderr=subprocess.PIPE, text=True,
+                                   env=self.environment)
         printed = ""
         while "filling the wrap with tets, attempt 1 ...\n" not in printed:
             line = process.stderr.readline()
@@ -87,11 +92,14 @@ class MeshingEnds(program.ProgramTest):
 
     def test_a_signal_ends_meshing(self):
         self.interrupted(signal.SIGTERM, "try", self.rig(), "-o", self.path("out"), "--no-reference", *LARGE)
-        left = [path for path in run_records.files(self.folder) if path.name != "making.lock"]  # which stays in the cache
-        self.assertEqual([path for path in left if run_records.is_temporary(path) or run_records.what_is_torn(path)], [])
+        # The lock stays in the cache.
+        left = [path for path in run_records.files(self.folder) if path.name != "making.lock"]
+        self.assertEqual([path for path in left if run_records.is_temporary(path) or run_records.what_is_torn(path)],
+                         [])
         points, triangles = rig_files.tube()
         lines = [f"v {x} {y} {z}" for x, y, z in points] + [f"f {a} {b} {c}" for a, b, c in triangles + 1]
-        self.interrupted(signal.SIGINT, "mesh", self.write("tube.obj", "\n".join(lines)), "-o", self.path("tets.msh"), *LARGE)
+        self.interrupted(signal.SIGINT, "mesh", self.write("tube.obj", "\n".join(lines)), "-o", self.path("tets.msh"),
+                         *LARGE)
         self.assertFalse(os.path.exists(self.path("tets.msh")))
 
 

@@ -1,5 +1,5 @@
-"""Rigs from outside: each error that once passed without a message has a test here, and each warning is provoked. The artist's surface is
-a control for every kind of motion."""
+"""Rigs from outside: each error that once passed without a message has a test here, and each warning is provoked. The
+artist's surface is a control for every kind of motion."""
 import html
 import json
 import os
@@ -51,7 +51,8 @@ class PlainRig(TrialTest):
 
     def test_a_leaf_joint_is_a_bone_and_keeps_its_weight(self):
         self.assertIn("tip", self.facts["model"]["joints"])
-        self.assertGreater(self.facts["model"]["weights_transferred_pct"], 95.0)  # 78.5 if the weights of the tip are lost
+        # 78.5 if the weights of the tip are lost.
+        self.assertGreater(self.facts["model"]["weights_transferred_pct"], 95.0)
 
     def test_the_artists_weights_are_the_default(self):
         for name, weights in (("default", ""), ("artist", 'weights = "artist"\n'), ("paper", 'weights = "paper"\n')):
@@ -79,14 +80,17 @@ class PlainRig(TrialTest):
 
     def test_a_clip_that_matches_too_few_joints_is_refused_and_a_scene_that_was_changed_is_not_replaced(self):
         walk = self.write("walk.bvh", clip(["root", "a", "b", "c", "d"]))
-        message = self.refused("try", self.path("rig.glb"), "--animation", walk, "-o", self.path("walk"), "--no-reference")
+        message = self.refused("try", self.path("rig.glb"), "--animation", walk, "-o", self.path("walk"),
+                               "--no-reference")
         self.assertIn("1 of 5 moving joints", message)
         self.assertIn("a, b, c, d", message)
         shutil.copytree(self.path("out"), self.path("changed"))
-        self.tried(self.path("rig.glb"), "--animation", walk, "--allow-partial", into="changed")  # the scene of a trial is replaced
+        # The scene of a trial is replaced.
+        self.tried(self.path("rig.glb"), "--animation", walk, "--allow-partial", into="changed")
         with open(self.path("changed", "scene.toml"), "a", encoding="utf-8") as file:
             file.write("# my own line")
-        self.assertIn("expected another folder", self.refused("try", self.path("rig.glb"), "-o", self.path("changed"), "--no-reference"))
+        self.assertIn("expected another folder", self.refused("try", self.path("rig.glb"), "-o", self.path("changed"),
+                                                              "--no-reference"))
         self.assertIn("# my own line", self.read("changed", "scene.toml"))
 
     def test_a_body_whose_faces_are_doubled_is_as_large_as_the_plain_one(self):
@@ -95,7 +99,8 @@ class PlainRig(TrialTest):
         doubled = numpy.vstack([points, numpy.full((300, 3), 30.0)]), numpy.vstack([triangles, triangles[:, ::-1]])
         self.begin_folder("doubled")
         facts, printed = self.tried(self.rig(surface=doubled))
-        self.remarked(facts, printed, f"{len(triangles)} of {2 * len(triangles):,} triangles of mesh tube are the second side of others")
+        self.remarked(facts, printed, f"{len(triangles)} of {2 * len(triangles):,} triangles of mesh tube are the "
+                                      "second side of others")
         self.remarked(facts, printed, f"300 of {len(points) + 300} points of mesh tube are left out")
         self.assertEqual(facts["volume"], self.facts["volume"])
 
@@ -120,10 +125,12 @@ class OwnCharacter(TrialTest):
     def test_every_animation_can_be_chosen_and_an_unknown_one_lists_them(self):
         facts, printed = self.tried(self.rig("two_animations"), "--animation", "Twist")
         self.assertEqual(facts["model"]["animations"], ["Bend", "Twist"])
-        self.assertEqual([(one["name"], round(one["largest_rotation_deg"])) for one in facts["animations"]], [("Bend", 70), ("Twist", 90)])
+        self.assertEqual([(one["name"], round(one["largest_rotation_deg"])) for one in facts["animations"]],
+                         [("Bend", 70), ("Twist", 90)])
         self.assertIn("Animations of the model", self.read("out", "report.html"))
         self.assertNotIn("2 animations", printed)
-        self.assertIn("expected one of Bend, Twist", self.refused("try", self.rig("two_animations"), "--animation", "Walk"))
+        self.assertIn("expected one of Bend, Twist", self.refused("try", self.rig("two_animations"), "--animation",
+                                                                  "Walk"))
 
     def test_an_animation_of_a_clip_can_be_chosen_by_name(self):
         clip = os.path.join(self.folder, "clip:of two.glb")
@@ -147,24 +154,29 @@ class OwnCharacter(TrialTest):
                                     "--animation", "Still")
         for words in ("no joint moves", "unlikely units", "are without flesh"):
             self.remarked(facts, printed, words)
-        facts, printed = self.tried(self.rig("two_animations", surface=reversed_by_a_third(), shifted_m=(0.0, 3.0, 0.0)))
+        facts, printed = self.tried(self.rig("two_animations", surface=reversed_by_a_third(),
+                                             shifted_m=(0.0, 3.0, 0.0)))
         for words in ("times the volume that the surface seems to enclose", "bones lie outside the body"):
             self.remarked(facts, printed, words)
-        for words in ("surface_volume_change_pct is empty", "it has 2 animations; Bend is taken"):  # there is no volume to be measured
+        # There is no volume to be measured.
+        for words in ("surface_volume_change_pct is empty", "it has 2 animations; Bend is taken"):
             self.remarked(facts, printed, words, "note")
 
     def test_inverted_tets_in_the_first_frame_are_located(self):
-        """The tip is turned by 170 degrees. The flesh around it is blended between elbow and tip alone; the root has most flesh."""
+        """The tip is turned by 170 degrees. The flesh around it is blended between elbow and tip alone; the root has
+        most flesh."""
         channels = [(2, "rotation", [0.0, 1.0], [rig_files.turn((0, 0, 1), angle) for angle in (170, 0)], "LINEAR")]
         facts, printed = self.tried(self.rig(animations=(), extra=[("Unbend", channels)]))
         place, = re.findall(r"pbs begins with [1-9]\d* inverted tets, most of them at (\w+): ", printed)
         self.assertIn(place, ("elbow", "tip"))
-        self.remarked(facts, printed, f"inverted tets, most of them at {place}: what is caught in the first frame may stay so", "note")
+        self.remarked(facts, printed, f"inverted tets, most of them at {place}: what is caught in the first frame "
+                                      "may stay so", "note")
 
     def test_at_most_three_warnings_the_gravest_first(self):
-        """A rig of centimetres, whose animation begins far from its bind pose, with a tip that the tets do not carry and bones above the
-        body: what makes results wrong comes first, and what is beyond three warnings is a note."""
-        facts, printed = self.tried(self.rig("centimetres", first_deg=170.0, tiny_tip=True, shifted_m=(0.0, 300.0, 0.0)))
+        """A rig of centimetres, whose animation begins far from its bind pose, with a tip that the tets do not carry
+        and bones above the body: what makes results wrong comes first, and what is beyond three warnings is a note."""
+        facts, printed = self.tried(self.rig("centimetres", first_deg=170.0, tiny_tip=True,
+                                             shifted_m=(0.0, 300.0, 0.0)))
         self.assertEqual(len(facts["warnings"]), 3)
         self.assertIn("inverted tets in the first frame", facts["warnings"][0])
         self.remarked(facts, printed, "inverted tets in the first frame")
@@ -176,29 +188,35 @@ class OwnCharacter(TrialTest):
         self.assertEqual(places, sorted(places))
 
     def test_bones_that_move_apart(self):
-        """Squash and stretch: the elbow goes a fifth as far again from the root, and the tip half as far from the elbow. The one that
-        changes most is named first. Neither the sentence nor the page judges the volume."""
-        away = lambda joint, factor: numpy.outer([1.0, factor], numpy.subtract(rig_files.PLACES[joint], rig_files.PLACES[joint - 1]))
-        stretch = [(joint, "translation", [0.0, 1.0], away(joint, factor), "LINEAR") for joint, factor in ((1, 1.2), (2, 1.5))]
+        """Squash and stretch: the elbow goes a fifth as far again from the root, and the tip half as far from the
+        elbow. The one that changes most is named first. Neither the sentence nor the page judges the volume."""
+        away = lambda joint, factor: numpy.outer([1.0, factor],
+                                                 numpy.subtract(rig_files.PLACES[joint], rig_files.PLACES[joint - 1]))
+        stretch = [(joint, "translation", [0.0, 1.0], away(joint, factor), "LINEAR")
+                   for joint, factor in ((1, 1.2), (2, 1.5))]
         facts, printed = self.tried(self.rig(animations=(), extra=[("Stretch", stretch)]))
         bones = facts["motion"]["stretched_bones"]
-        self.assertEqual([(bone["bone"], bone["frame"]) for bone in bones], [("tip", FRAMES - 1), ("elbow", FRAMES - 1)])
+        self.assertEqual([(bone["bone"], bone["frame"]) for bone in bones],
+                         [("tip", FRAMES - 1), ("elbow", FRAMES - 1)])
         for bone, change_pct in zip(bones, (50.0, 20.0)):
             self.assertAlmostEqual(bone["change_pct"], change_pct, delta=1e-3)
-        self.remarked(facts, printed, "most: tip by +50 % in frame 2, elbow by +20 % in frame 2; the artist changes the volume with it")
+        self.remarked(facts, printed, "most: tip by +50 % in frame 2, elbow by +20 % in frame 2; the artist changes "
+                                      "the volume with it")
         self.assertNotIn("volume", facts["summary"])
         self.assertNotIn("Volume at the joints", self.read("out", "report.html"))
         self.assertNotIn("no joint moves", printed)  # the joints only move along
 
     def test_a_clip_of_which_some_joints_do_not_match(self):
-        """The surface that the tets carry is as far from the artist's as the trial states, and below the bound of a warning."""
+        """The surface that the tets carry is as far from the artist's as the trial states, and below the bound of a
+        warning."""
         walk = self.write("walk.bvh", clip(["root", "elbow", "wrist"]))
         facts, printed = self.tried(self.rig(), "--animation", walk, "--paraview")
         self.remarked(facts, printed, "2 of 3 moving joints of the clip match a bone; without a bone: wrist")
         self.assertAlmostEqual(facts["motion"]["time_zero_s"], 0.1)  # after the T pose
         artist, lbs = self.points("skin", "artist_*.vtp"), self.points("frames", "lbs_surface_*.vtp")
         self.assertEqual((len(artist), len(lbs)), (FRAMES, FRAMES))
-        # The root turns by 20 degrees from frame to frame, so that the end of the tube, 1 m away, moves by more than 2 sin(20 degrees) / 2.
+        # The root turns by 20 degrees from frame to frame, so that the end of the tube, 1 m away, moves by more than 2
+        # sin(20 degrees) / 2.
         self.assertGreater(abs(artist[-1] - artist[0]).max(), numpy.sin(numpy.radians(20.0)))
         farthest_m = max(numpy.linalg.norm(one - other, axis=1).max() for one, other in zip(artist, lbs))
         size_m = numpy.linalg.norm(numpy.ptp(rig_files.tube()[0], axis=0))
@@ -210,7 +228,8 @@ class OwnCharacter(TrialTest):
         facts, printed = self.tried(self.rig("no_animation"))
         self.remarked(facts, printed, "it has no animation: the joint elbow is bent", "note")
         self.assertEqual((facts["control"], facts["motion"]["time_zero_s"]), ("skin/artist_*.vtp", 0.0))
-        rest, (weights, place) = rig_files.tube()[0], (rig_files.weights_of(rig_files.tube()[0]), numpy.array(rig_files.PLACES[1]))
+        rest, (weights, place) = rig_files.tube()[0], (rig_files.weights_of(rig_files.tube()[0]),
+                                                       numpy.array(rig_files.PLACES[1]))
         axis = numpy.array(json.loads(re.search("axis = (.*)", self.read("out", "scene.toml"))[1]))
         for frame, found in enumerate(self.points("skin", "artist_*.vtp")):
             turn = skin_formula.quaternion_matrix(numpy.array(rig_files.turn(axis, 60.0 * frame / (FRAMES - 1))))
@@ -219,7 +238,8 @@ class OwnCharacter(TrialTest):
         self.assertEqual(frame, FRAMES - 1)
 
     def test_a_body_that_turns_as_a_whole_moves_no_joint_and_units_can_be_stated(self):
-        model = self.rig("centimetres", animations=(), extra=[("Turntable", turned(120, joint=0)), ("Bend", turned(60))])
+        model = self.rig("centimetres", animations=(), extra=[("Turntable", turned(120, joint=0)),
+                                                              ("Bend", turned(60))])
         facts, printed = self.tried(model, "--scale", "0.01")
         self.assertNotIn("unlikely units", printed)
         self.assertAlmostEqual(facts["model"]["extent_m"], rig_files.LENGTH + 0.6 * rig_files.RADIUS, places=3)
@@ -227,9 +247,11 @@ class OwnCharacter(TrialTest):
         self.assertEqual([round(one["largest_rotation_deg"]) for one in facts["animations"]], [0, 60])
 
     def test_an_animation_of_one_key_is_a_pose(self):
-        model = self.rig(animations=(), extra=[("Pose", [(1, "rotation", [0.0], [rig_files.turn((0, 0, 1), 60)], "LINEAR")])])
+        model = self.rig(animations=(),
+                         extra=[("Pose", [(1, "rotation", [0.0], [rig_files.turn((0, 0, 1), 60)], "LINEAR")])])
         facts, printed = self.tried(model)
-        self.remarked(facts, printed, "the motion is one pose, in which the bones are turned by up to 60 degrees from the rest pose")
+        self.remarked(facts, printed, "the motion is one pose, in which the bones are turned by up to 60 degrees from "
+                                      "the rest pose")
         self.assertNotIn("no joint moves", printed)
         [found] = self.points("skin", "artist_*.vtp")
         self.assertLess(abs(found - skin_formula.Model(model).points("Pose", 0.0)).max(), 3 * ROUNDED_M)
@@ -244,7 +266,8 @@ class OwnCharacter(TrialTest):
             self.assertEqual(facts["model"]["animation"], "Take 001 (2)")
             self.assertEqual([(one["name"], round(one["largest_rotation_deg"])) for one in facts["animations"]],
                              [("Take 001", 0), ("Take 001 (2)", 60)])
-            cells = re.findall(r"<t[hd][^>]*>([^<]*)</t[hd]>", self.read("out", "report.html").split("Animations of the model")[2])
+            cells = re.findall(r"<t[hd][^>]*>([^<]*)</t[hd]>",
+                               self.read("out", "report.html").split("Animations of the model")[2])
             self.assertEqual(cells[4:12:4] + cells[7:12:4], ["Take 001", "Take 001 (2)", "", "yes"])
 
     def test_a_note_where_nothing_is_wrong(self):
@@ -267,9 +290,11 @@ rate_hz = 10.0
 use = ["lbs"]
 """
         scene = self.write("limb.toml", scene)
-        self.assertIn("joints = 1 of 3 moving joints: expected at least one half", self.refused("run", scene, "-o", self.path("run")))
+        self.assertIn("joints = 1 of 3 moving joints: expected at least one half",
+                      self.refused("run", scene, "-o", self.path("run")))
         printed = self.succeeds("run", scene, "-o", self.path("run"), "--set", "motion.allow_partial=true").stderr
-        words = "1 of 3 moving joints of the clip match a bone; without a bone: a, b; bones without a motion of their own: forearm"
+        words = ("1 of 3 moving joints of the clip match a bone; without a bone: a, b; bones without a motion of their "
+                 "own: forearm")
         self.assertIn(words, printed)
         self.assertIn(f"walk.bvh: {words}", self.json("run", "run.json")["outcome"]["warnings"])
 

@@ -1,6 +1,7 @@
-"""Deformers of the user's own: the examples of experiments/deformers/external/README.md, run as it describes, and every way in which a
-program or a library can fail. Reference: the formulas of the examples, computed here from what pbskin writes for a program, and the frames
-of pbskin's own LBS. Tolerance: a thousand roundings of the largest coordinate, for sums over fewer than a hundred bones and neighbours."""
+"""Deformers of the user's own: the examples of experiments/deformers/external/README.md, run as it describes, and every
+way in which a program or a library can fail. Reference: the formulas of the examples, computed here from what pbskin
+writes for a program, and the frames of pbskin's own LBS. Tolerance: a thousand roundings of the largest coordinate, for
+sums over fewer than a hundred bones and neighbours."""
 import json
 import math
 import os
@@ -19,11 +20,13 @@ import written_frames
 
 FOLDER = pathlib.Path(program.SOURCE) / "experiments/deformers/external"
 EXAMPLE = (FOLDER / "examples/smoothed_skinning.py").read_text()
-TABLES = re.findall(r"```toml\n(.*?)```", (FOLDER / "README.md").read_text(), re.DOTALL)
-COMMANDS = [line.split("  #")[0].strip() for block in re.findall(r"```sh\n(.*?)```", (FOLDER / "README.md").read_text(), re.DOTALL)
-            for line in block.splitlines()] + re.findall(r"`(pbskin [^`]*)`", (FOLDER / "README.md").read_text().replace("\n", " "))
-COMPILE = re.search(r"^cc .*$", (FOLDER / "README.md").read_text(), re.MULTILINE)[0]
-LIMB = 'body = "limb"\nvertices = 300\n[motion]\njoint = "forearm"\naxis = [0.0, 0.0, 1.0]\nangle_deg = 90.0\nframes = 4\n'
+PAGE = (FOLDER / "README.md").read_text()
+TABLES = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+COMMANDS = [line.split("  #")[0].strip() for block in re.findall(r"```sh\n(.*?)```", PAGE, re.DOTALL)
+            for line in block.splitlines()] + re.findall(r"`(pbskin [^`]*)`", PAGE.replace("\n", " "))
+COMPILE = re.search(r"^cc .*$", PAGE, re.MULTILINE)[0]
+LIMB = ('body = "limb"\nvertices = 300\n[motion]\njoint = "forearm"\naxis = [0.0, 0.0, 1.0]\nangle_deg = 90.0\n'
+        'frames = 4\n')
 HUMAN = 'body = "human"\nvertices = 600\n[motion]\nclip = "01_01.bvh"\nrate_hz = 25.0\nduration_s = 0.2\n'
 SETTINGS = foreign_arm.PBS + "[output]\nframes_every = 1\n"
 ENVIRONMENT = {**os.environ, "PATH": "/usr/bin:" + os.environ["PATH"]}  # Debian's python3 has numpy
@@ -31,7 +34,8 @@ KEEP = "\nimport shutil\nshutil.copytree(folder, %r, dirs_exist_ok=True)\n"  # f
 TOLERANCE = 1000 * numpy.finfo(float).eps
 
 LIBRARY = pathlib.Path(__file__).with_name("own_deformer.c.in").read_text()
-SOUND = {"version": "PBSKIN_DEFORMER_VERSION", "made": "&vertices", "advance": "advance", "position": "x[i] + 1.0", "status": "0"}
+SOUND = {"version": "PBSKIN_DEFORMER_VERSION", "made": "&vertices", "advance": "advance", "position": "x[i] + 1.0",
+         "status": "0"}
 
 
 class Exchanged:
@@ -164,18 +168,19 @@ class OwnDeformer(program.ProgramTest):
     # The study of error against run time.
 
     def reproduce(self, *arguments):
-        return self.succeeds("reproduce", "work_precision", "--only", "limb", "-o", self.path("out"), "--external", self.path("mine.toml"),
-                             *arguments, env=ENVIRONMENT)
+        return self.succeeds("reproduce", "work_precision", "--only", "limb", "-o", self.path("out"), "--external",
+                             self.path("mine.toml"), *arguments, env=ENVIRONMENT)
 
     def run_commands_of_the_readme(self):
-        """Each command of the study with FOLDER and DIR in place; the three minutes of two bodies are not computed, but their cost is
-        printed. The other tests call the commands for scenes. Returns what the run of one body prints."""
+        """Each command of the study with FOLDER and DIR in place; the three minutes of two bodies are not computed, but
+        their cost is printed. The other tests call the commands for scenes. Returns what the run of one body prints."""
         of_scenes = {COMPILE, "pbskin run SCENE.toml -o DIR", "pbskin report DIR"}
         commands = [command for command in COMMANDS if command not in of_scenes]
         self.assertEqual(len(commands), 3, commands)
         printed = {}
         for command in sorted(commands, key=lambda command: "make_all.py" in command):  # the figure follows the run
-            words = command.replace("FOLDER", self.folder).replace("DIR", self.path("out")).replace("pbskin ", f"{program.PBSKIN} ").split()
+            words = command.replace("FOLDER", self.folder).replace("DIR", self.path("out")).replace(
+                "pbskin ", f"{program.PBSKIN} ").split()
             words += ["--cost"] if "reproduce" in words and "--only" not in words else []
             process = subprocess.run(words, cwd=program.SOURCE, env=ENVIRONMENT, capture_output=True, text=True)
             self.assertEqual(process.returncode, 0, f"{command}: {process.stdout}{process.stderr}")
@@ -193,28 +198,31 @@ class OwnDeformer(program.ProgramTest):
         at = (field["blended"] == 1) & (field["at_tips"] == 0)
         mass, distance_m = field["lumped_volume_m3"][at], field["bone_distance_m"][at]
         apart = (positions - written_frames.points(reference) - field["displacement"])[at]
-        return 100 * numpy.sqrt((mass * (apart ** 2).sum(axis=1)).sum() / mass.sum()) * mass.sum() / (mass * distance_m).sum()
+        return 100 * numpy.sqrt((mass * (apart ** 2).sum(axis=1)).sum() / mass.sum()) * mass.sum() / (
+            mass * distance_m).sum()
 
     def test_the_study_of_error_against_run_time_has_rows_for_it(self):
-        """The example of the README, the same example without smoothing, which is LBS and states times of 1, 2, 3 and 4 ms for the turns of
-        each pose (slow: 100 to 400 ms), and the library of the README. The commands are those of the README. Reference: the shapes of
-        LBS, the exported references, and the median of the times after the first (2, 3 and 4 ms). Tolerance: references are exported with
-        ten digits."""
+        """The example of the README, the same example without smoothing, which is LBS and states times of 1, 2, 3 and 4
+        ms for the turns of each pose (slow: 100 to 400 ms), and the library of the README. The commands are those of
+        the README. Reference: the shapes of LBS, the exported references, and the median of the times after the first
+        (2, 3 and 4 ms). Tolerance: references are exported with ten digits."""
         text = EXAMPLE
         kept = pathlib.Path(self.path("kept"))
-        blended = text.replace("in range(4):", "in range(0):").replace("time.perf_counter() - start", "0.001 * (1 + len(seconds) % 4)")
+        blended = text.replace("in range(4):", "in range(0):").replace("time.perf_counter() - start",
+                                                                       "0.001 * (1 + len(seconds) % 4)")
         self.write("my_deformer.py", text)
         self.write("lbs.py", blended + KEEP % str(kept))
         self.write("slow.py", blended.replace("0.001 *", "0.1 *"))
         self.compiled_example()
-        example = re.search(r"```toml\n(schema = 1.*?)```", (FOLDER / "README.md").read_text(), re.DOTALL)[1]
+        example = re.search(r"```toml\n(schema = 1.*?)```", PAGE, re.DOTALL)[1]
         tables = (example + '[[external]]\nname = "blended"\ncommand = ["python3", "lbs.py"]\n'
                   + '[[external]]\nname = "slow"\ncommand = ["python3", "slow.py"]\n'
                   + '[[external]]\nname = "rigid"\nlibrary = "libmine.so"\n')
         self.write("mine.toml", tables)
         screen = self.run_commands_of_the_readme()
-        self.assertRegex(screen, r"(?m)^slow: 300 ms per frame, \d+ % of LBS's error \[\d+, \d+\] in 8 poses; with at most 10 ms: "
-                                 r"DQS \d+ %, delta mush \d+ %, PBS \d+ %; too slow for 0\.1 to 10 ms\.$")
+        self.assertRegex(screen, r"(?m)^slow: 300 ms per frame, \d+ % of LBS's error \[\d+, \d+\] in 8 poses; "
+                                 r"with at most 10 ms: DQS \d+ %, delta mush \d+ %, PBS \d+ %; too slow for 0\.1 to "
+                                 r"10 ms\.$")
         self.assertLess(screen.index("first answer, 4 poses of limb: slow: 300 ms"), screen.index("1 of 1 runs"))
         self.assertIn(">slow<", self.read("out", "figures", "error_against_time.svg"))
         self.succeeds("report", self.path("out"))
@@ -235,23 +243,27 @@ class OwnDeformer(program.ProgramTest):
             place = poses.index(pose)
             for member in ("smooth", "rigid_capsules", "held_parts"):
                 error, smoothed = (float(own[name][place][f"{member}_pct"]) for name in ("blended", "mine"))
-                self.assertAlmostEqual(error, self.error_joint_pct(given.blended(4 * place), pose, member), delta=1e-6 * error)
+                self.assertAlmostEqual(error, self.error_joint_pct(given.blended(4 * place), pose, member),
+                                       delta=1e-6 * error)
                 self.assertGreater(abs(smoothed - error), 1e-3 * error)
         for row in own["blended"]:
             self.assertAlmostEqual(float(row["ms"]), 3.0, delta=1e-12)
         methods = [row for row in self.rows("out", "work_precision", "methods.csv") if row["method"] == "blended"]
-        self.assertEqual([(row["table"], float(row["budget_ms"])) for row in methods], [("known", 10.0), ("known", math.inf),
-                                                                                         ("guessed", 10.0), ("guessed", math.inf)])
+        self.assertEqual([(row["table"], float(row["budget_ms"])) for row in methods],
+                         [("known", 10.0), ("known", math.inf),
+                           ("guessed", 10.0), ("guessed", math.inf)])
         for row in methods:
             self.assertAlmostEqual(float(row["ms"]), 3.0, delta=1e-12)
             self.assertEqual(row["within"], "doubled")
-        subprocess.run([sys.executable, "-B", pathlib.Path(program.SOURCE) / "paper_figures/make_pages.py", self.path("out")], check=True)
+        subprocess.run([sys.executable, "-B", pathlib.Path(program.SOURCE) / "paper_figures/make_pages.py",
+                        self.path("out")], check=True)
         page = self.read("out", "work_precision", "work_precision.md")
         self.assertIn("- `rigid`: processor time", page)
         self.assertIn("- `blended`: the times that the program states", page)
         self.assertEqual(self.runs_to_do(), 0)
         renamed = tables.replace('"blended"', '"unsmoothed"')
-        for name, whole, other in (("my_deformer.py", text, text + "\n"), ("mine.toml", tables, renamed), ("mine.toml", tables, example)):
+        for name, whole, other in (("my_deformer.py", text, text + "\n"), ("mine.toml", tables, renamed),
+                                   ("mine.toml", tables, example)):
             self.write(name, other)
             self.assertEqual(self.runs_to_do(), 1)
             self.write(name, whole)
@@ -271,15 +283,18 @@ class OwnDeformer(program.ProgramTest):
         crashed = r".*crash\.toml:4: external\.0\.library = libmine\.so: cannot be loaded: .*signal 11"
         a_run = r"--external = .*\.toml: expected a run of work_precision among the runs"
         for words, *arguments in (
-                (r".*mine\.toml:4: external\.0\.command = .*no_such_program.*: cannot be started: No such", "work_precision", "--external",
-                 mine),
-                (r"sub/d\.toml:4: external\.0\.command = .*\./mine\.sh.*: cannot be started: No such", "work_precision", "--external",
-                 "sub/d.toml"),
-                (crashed, "work_precision", "--external", crash), (crashed, "work_precision", "--external", crash, "--cost"),
-                (a_run, "volume", "--external", mine), (a_run, "work_precision", "volume", "--external", sound, "--only", "limb_twist"),
+                (r".*mine\.toml:4: external\.0\.command = .*no_such_program.*: cannot be started: No such",
+                 "work_precision", "--external", mine),
+                (r"sub/d\.toml:4: external\.0\.command = .*\./mine\.sh.*: cannot be started: No such", "work_precision",
+                 "--external", "sub/d.toml"),
+                (crashed, "work_precision", "--external", crash), (crashed, "work_precision", "--external", crash,
+                                                                   "--cost"),
+                (a_run, "volume", "--external", mine), (a_run, "work_precision", "volume", "--external", sound,
+                                                        "--only", "limb_twist"),
                 ("--external: expected a file", "work_precision", "--external", ""),
                 (r".*none\.toml: cannot be read", "work_precision", "--external", self.path("none.toml")),
-                (r"--only = limb_bend_60: no such run; expected one of limb", "work_precision", "--only", "limb_bend_60")):
+                (r"--only = limb_bend_60: no such run; expected one of limb", "work_precision", "--only",
+                 "limb_bend_60")):
             with self.subTest(words):
                 process = self.ends(2, "reproduce", *arguments, "-o", self.path("out"), cwd=self.folder)
                 self.assertRegex(process.stderr, rf"^pbskin: {words}.*\n$")
@@ -289,7 +304,8 @@ class OwnDeformer(program.ProgramTest):
 
     def expect_refused(self, key, value, rule):
         process = self.run_scene(2)
-        self.assertRegex(process.stderr, rf"^pbskin: .*scene\.toml: mine\.{key} = .*{re.escape(value)}.*: .*{re.escape(rule)}.*\n$")
+        self.assertRegex(process.stderr, rf"^pbskin: .*scene\.toml: mine\.{key} = .*{re.escape(value)}.*: "
+                                         rf".*{re.escape(rule)}.*\n$")
         self.assertFalse(os.path.exists(self.path("out", "run.json")))
 
     def expect_program_refused(self, script, rule, mode=0o755):
@@ -299,7 +315,8 @@ class OwnDeformer(program.ProgramTest):
 
     def test_a_program_that_fails(self):
         self.expect_program_refused("exit 3", "ended with status 3: expected status 0")
-        self.expect_program_refused("echo one; echo two; exit 1", "ended with status 1: expected status 0; its last line: two")
+        self.expect_program_refused("echo one; echo two; exit 1", "ended with status 1: expected status 0; "
+                                                                  "its last line: two")
         self.expect_program_refused("kill -9 $$", "ended by a signal")
         self.expect_program_refused("exit 0", "cannot be started: Permission denied", mode=0o644)
         self.expect_program_refused("exit 0", "positions.f64: missing: expected the program to write it")

@@ -1,8 +1,8 @@
-"""Sweeps on this machine and on a Slurm cluster of one node, which the test starts and stops. `./check --long` runs it and sets PBS_LONG=1;
-with that, a missing program fails the test.
+"""Sweeps on this machine and on a Slurm cluster of one node, which the test starts and stops. `./check --long` runs it
+and sets PBS_LONG=1; with that, a missing program fails the test.
 
-Reference: the other engine. The same sweep writes the same bytes of sweep.csv, also if it was killed and started again while its jobs were
-still queued."""
+Reference: the other engine. The same sweep writes the same bytes of sweep.csv, also if it was killed and started again
+while its jobs were still queued."""
 import csv
 import os
 import pathlib
@@ -35,7 +35,8 @@ class Sweeps(program.ProgramTest):
 
     @classmethod
     def tearDownClass(cls):
-        reliability.tell("slurm_sweeps", "sweeps on Slurm equal to local ones, byte for byte", Sweeps.equal, Sweeps.compared)
+        reliability.tell("slurm_sweeps", "sweeps on Slurm equal to local ones, byte for byte", Sweeps.equal,
+                         Sweeps.compared)
 
     def command(self, sweep, name, *options):
         start = [sys.executable, "-B", str(SWEEPS / "sweep.py"), "run", str(sweep)]
@@ -43,8 +44,8 @@ class Sweeps(program.ProgramTest):
 
     def sweep(self, sweep, name, *options, status=0):
         start = time.monotonic()
-        process = subprocess.run(self.command(sweep, name, *options), env=self.cluster.environment, capture_output=True, text=True,
-                                 timeout=600)
+        process = subprocess.run(self.command(sweep, name, *options), env=self.cluster.environment, capture_output=True,
+                                 text=True, timeout=600)
         print(f"{name}: {time.monotonic() - start:.1f} s", flush=True)
         self.assertEqual(process.returncode, status, process.stderr[-4000:])
         return process
@@ -64,14 +65,15 @@ class Sweeps(program.ProgramTest):
         example = SWEEPS / "examples/limb_bend.toml"
         self.sweep(example, "limb_here", "-j", "2")
         self.sweep(example, "limb_slurm", "--slurm")
-        self.assertEqual((len(self.jobs_of("limb_here")), len(self.jobs_of("limb_slurm"))), (0, 3))  # shows that Slurm was used
+        # Shows that Slurm was used.
+        self.assertEqual((len(self.jobs_of("limb_here")), len(self.jobs_of("limb_slurm"))), (0, 3))
         self.assert_same_tables("limb_here", "limb_slurm", rows=6 * 3 * 7)
 
     def test_killed_and_begun_again_while_its_jobs_are_queued(self):
         example = SWEEPS / "examples/human_stiffness.toml"
         self.sweep(example, "human_here", "-j", "2")
-        process = subprocess.Popen(self.command(example, "human_slurm", "--slurm"), env=self.cluster.environment, start_new_session=True,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(self.command(example, "human_slurm", "--slurm"), env=self.cluster.environment,
+                                   start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         runs = pathlib.Path(self.path("human_slurm", "runs"))
         try:
             slurm_cluster.wait_for("two runs", lambda: len(list(runs.glob("*/run.json"))) >= 2, 300)

@@ -1,5 +1,5 @@
-"""What a trial leaves: its page with the reference, its .glb files, judged by the rules of glTF 2.0 and by the model's own bytes, and its
-folder after an interruption and for another model."""
+"""What a trial leaves: its page with the reference, its .glb files, judged by the rules of glTF 2.0 and by the model's
+own bytes, and its folder after an interruption and for another model."""
 import glob
 import os
 import signal
@@ -24,21 +24,27 @@ def painted(path):
     gltf.document, gltf.bytes = rig_files.rig()
     points, triangles = rig_files.tube()
     first = gltf.document["meshes"][0]["primitives"][0]
-    first["attributes"]["NORMAL"] = gltf.put(points / numpy.linalg.norm(points, axis=1).clip(1e-9)[:, None], "VEC3", rig_files.FLOAT)
+    first["attributes"]["NORMAL"] = gltf.put(points / numpy.linalg.norm(points, axis=1).clip(1e-9)[:, None], "VEC3",
+                                             rig_files.FLOAT)
     first["attributes"]["TEXCOORD_0"] = gltf.put(UV, "VEC2", rig_files.FLOAT)
-    parts = [gltf.put(part.reshape(-1, 1), "SCALAR", rig_files.UNSIGNED_INT) for part in (triangles[:100], triangles[100:])]
-    gltf.document["meshes"][0]["primitives"] = [{"attributes": dict(first["attributes"]), "indices": indices, "material": material}
+    parts = [gltf.put(part.reshape(-1, 1), "SCALAR", rig_files.UNSIGNED_INT)
+             for part in (triangles[:100], triangles[100:])]
+    gltf.document["meshes"][0]["primitives"] = [{"attributes": dict(first["attributes"]), "indices": indices,
+                                                 "material": material}
                                                 for indices, material in zip(parts, (1, 0))]
-    view = gltf.document["accessors"][gltf.put(numpy.frombuffer(PNG, "u1"), "SCALAR", rig_files.UNSIGNED_BYTE)]["bufferView"]
+    view = gltf.document["accessors"][gltf.put(numpy.frombuffer(PNG, "u1"), "SCALAR",
+                                               rig_files.UNSIGNED_BYTE)]["bufferView"]
     gltf.document.update(images=[{"bufferView": view, "mimeType": "image/png"}, {"uri": "nowhere.png"}],
                          textures=[{"source": 0}, {"source": 1}], materials=[
-                             {"name": name, "pbrMetallicRoughness": {"baseColorTexture": {"index": n}}} for n, name in enumerate("ab")])
+                             {"name": name, "pbrMetallicRoughness": {"baseColorTexture": {"index": n}}}
+                             for n, name in enumerate("ab")])
     return rig_files.write_glb(path, {**gltf.document, "buffers": [{"byteLength": len(gltf.bytes)}]}, gltf.bytes)
 
 
 class TrialFiles(TrialTest):
     def test_without_the_program_of_the_viewer_the_page_keeps_what_it_shows(self):
-        """All frames, so that the large files are removed, and `pbskin report` adds the program as soon as it is built."""
+        """All frames, so that the large files are removed, and `pbskin report` adds the program as soon as it is
+        built."""
         _, printed = self.tried(self.rig(), PBS_VIEWER_BUILD=self.path("nowhere"))
         self.assertIn("viewer.js is not built", printed)
         self.assertEqual(glob.glob(self.path("out", "frames", "*.vtu")), [])
@@ -57,14 +63,17 @@ class TrialFiles(TrialTest):
 
     @unittest.skipUnless(program.HAS_FEM, "the finite elements are not installed")
     def test_the_error_of_the_reference_itself_can_be_bounded(self):
-        facts, printed = self.tried(self.rig(animations=(), extra=[("Bend", turned(15))]), "--error-bar", without=(), frames=2)
-        bounds = [float(row["reference_error_joint_pct"]) for row in self.rows("out", "metrics.csv") if row["deformer"] == "pbs"]
+        facts, printed = self.tried(self.rig(animations=(), extra=[("Bend", turned(15))]), "--error-bar", without=(),
+                                    frames=2)
+        bounds = [float(row["reference_error_joint_pct"]) for row in self.rows("out", "metrics.csv")
+                  if row["deformer"] == "pbs"]
         bar = facts["error_bar"]
         self.assertEqual((bar["frames"], bar["of"], bar["largest_pct"]), (2, 2, max(bounds)))
         self.assertGreater(bar["largest_pct"], 0)
         self.assertGreater(bar["seconds"], 0)
         self.assertIn(f"is estimated in 2 of 2 frames, at most {bar['largest_pct']:.2g} %, which took", printed)
-        self.assertIn("--error-bar excludes --no-reference", self.refused("try", "rig.glb", "--error-bar", "--no-reference"))
+        self.assertIn("--error-bar excludes --no-reference",
+                      self.refused("try", "rig.glb", "--error-bar", "--no-reference"))
 
     @unittest.skipUnless(program.HAS_FEM, "the finite elements are not installed")
     def test_a_model_with_one_joint(self):
@@ -126,8 +135,10 @@ class TrialFiles(TrialTest):
                 self.assertLess(abs(numpy.linalg.norm(normals, axis=2) - 1).max(), 4 * numpy.sqrt(3) * 2.0 ** -24)
 
     def test_a_trial_that_was_interrupted_runs_again_and_is_kept_from_another_model(self):
-        command = [program.PBSKIN, "try", self.rig(animations=(), extra=[("Slow", turned(60))]), "-o", self.path("out"), "--no-reference"]
-        with subprocess.Popen([*command, "--frames", "3000", "--vertices", "300"], stderr=subprocess.PIPE, text=True) as process:
+        command = [program.PBSKIN, "try", self.rig(animations=(), extra=[("Slow", turned(60))]), "-o", self.path("out"),
+                   "--no-reference"]
+        with subprocess.Popen([*command, "--frames", "3000", "--vertices", "300"], stderr=subprocess.PIPE,
+                              text=True) as process:
             while process.poll() is None and not os.path.exists(self.path("out", "frames", "lbs_000001.vtu")):
                 time.sleep(0.01)
             process.send_signal(signal.SIGINT)
@@ -142,7 +153,8 @@ class TrialFiles(TrialTest):
         self.assertEqual(self.json("out", "run.json")["outcome"]["frames"], 3)
         other, before = rig_files.write("two_animations", self.path("other.glb")), self.read("out", "try.json")
         message = self.refused("try", other, "-o", self.path("out"), "--no-reference")
-        self.assertIn("character.model = ../rig.glb: the folder has the trial of this model: expected another folder (-o)", message)
+        self.assertIn("character.model = ../rig.glb: the folder has the trial of this model: expected another "
+                      "folder (-o)", message)
         self.assertIn(other, message)
         self.assertEqual(self.read("out", "try.json"), before)
 
@@ -153,8 +165,8 @@ class TrialFiles(TrialTest):
         words = ["try", self.rig(), "-o", self.path("out"), "--frames", "12", "--vertices", "300"]
         environment = {**os.environ, "PBS_VIEWER_BUILD": self.folder}
         for sent in (signal.SIGINT, signal.SIGTERM):
-            with self.subTest(sent), subprocess.Popen([program.PBSKIN, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                                                      text=True, env=environment) as trial:
+            with self.subTest(sent), subprocess.Popen([program.PBSKIN, *words], stdout=subprocess.DEVNULL,
+                                                      stderr=subprocess.PIPE, text=True, env=environment) as trial:
                 printed = ""
                 while "solving the reference" not in printed:
                     line = trial.stderr.readline()
@@ -163,7 +175,8 @@ class TrialFiles(TrialTest):
                 trial.send_signal(sent)
                 printed += trial.stderr.read()
                 self.assertEqual(trial.wait(), 130, printed)
-                self.assertIn("interrupted; what is finished is written now (a second interruption ends this too)", printed)
+                self.assertIn("interrupted; what is finished is written now (a second interruption ends this too)",
+                              printed)
                 self.assertIn("report.html has what was finished, and the same command goes on from there", printed)
                 facts = self.json("out", "try.json")
                 self.assertTrue(facts["interrupted"])

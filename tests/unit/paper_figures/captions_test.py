@@ -1,5 +1,5 @@
-"""Captions agree with the rows behind their figure, and contain no number that another run would change. Reference: captions.toml and the
-rows."""
+"""Captions agree with the rows behind their figure, and contain no number that another run would change. Reference:
+captions.toml and the rows."""
 import dataclasses
 import re
 import tomllib
@@ -14,18 +14,21 @@ from words import captions
 
 
 listed = {entry.name: entry for entry in entries.read()}
-extents_differ = {"convergence", "jiggle", "stability", "stiffness", "volume", "work_precision"}  # a quick run has fewer settings
-same_in_every_run = {"0.5 %", "8 frames in 10", "24 iterations", "after 24", "90 degrees", "2007", "4.5e15 N/m", "1 N", "1 m", "01_01",
-                     "95 %"}
+# A quick run has fewer settings.
+extents_differ = {"convergence", "jiggle", "stability", "stiffness", "volume", "work_precision"}
+same_in_every_run = {"0.5 %", "8 frames in 10", "24 iterations", "after 24", "90 degrees", "2007", "4.5e15 N/m", "1 N",
+                     "1 m", "01_01", "95 %"}
 
 
 class Captions(ResultsTest):
     def title_and_caption(self, name, rows):
         write_table(self.results / f"{name}.csv", rows)
-        return " ".join(captions.whole(listed[name], self.results, {"cpu_model": "a processor"}, part) for part in ("title", "caption"))
+        return " ".join(captions.whole(listed[name], self.results, {"cpu_model": "a processor"}, part)
+                        for part in ("title", "caption"))
 
     def test_each_states_the_facts_of_the_rows_behind_its_figure(self):
-        for case in tomllib.loads((root / "tests/unit/paper_figures/captions.toml").read_text(encoding="utf-8"))["case"]:
+        for case in tomllib.loads((root / "tests/unit/paper_figures/captions.toml").read_text(encoding="utf-8"))[
+            "case"]:
             text = self.title_and_caption(case["figure"], [dict(zip(case["columns"], row)) for row in case["rows"]])
             for words in case["states"]:
                 with self.subTest(case["what"]):
@@ -45,7 +48,8 @@ class Captions(ResultsTest):
         for entry in timed:
             with self.subTest(entry.name):
                 write_table(self.results / f"{entry.name}.csv", [
-                    {"shown": "answer", "text": "", "target_pct": 35, "budget_ms": 1, "method": "pbs", "solved_pct": 50, "poses": 40}])
+                    {"shown": "answer", "text": "", "target_pct": 35, "budget_ms": 1, "method": "pbs", "solved_pct": 50,
+                     "poses": 40}])
                 self.assertIn("{cpu}", entry.caption)
                 self.assertIn("a processor", captions.whole(entry, self.results, {"cpu_model": "a processor"}))
                 self.assertIn("a processor that is not on record", captions.whole(entry, self.results, {}))
@@ -55,8 +59,8 @@ class Captions(ResultsTest):
         self.make_all("volume_over_iterations")
         file = self.results / "figures" / "volume_over_iterations.caption.txt"
         text = file.read_text()
-        self.assertIn("the signed change is \u22122 % for the human's median and \u22120.00375 % for the limb bent by 90 degrees; "
-                      "after 96 iterations it is \u22122 %", text)
+        self.assertIn("the signed change is \u22122 % for the human's median and \u22120.00375 % for the limb bent by "
+                      "90 degrees; after 96 iterations it is \u22122 %", text)
         self.assertEqual(captions.read(listed["volume_over_iterations"], file.parent), text.rstrip("\n"))
         make_all.delete("volume_over_iterations", file.parent)
         self.assertFalse(file.exists())
@@ -64,7 +68,8 @@ class Captions(ResultsTest):
             captions.read(listed["volume_over_iterations"], file.parent)
 
     def test_a_number_that_no_script_tells_is_an_error(self):
-        self.title_and_caption("stability_maps", [{"map": "map_time_step_k_stretch.csv", "outcome": "bounded", "steps": 1}])
+        self.title_and_caption("stability_maps",
+                               [{"map": "map_time_step_k_stretch.csv", "outcome": "bounded", "steps": 1}])
         with self.assertRaises(KeyError):
             captions.whole(dataclasses.replace(listed["stability_maps"], caption="see {nothing}"), self.results, {})
 

@@ -1,6 +1,7 @@
-"""Importing this module makes style.save refuse a figure in which a line, whose label begins with the name of a deformer, has another
-marker or colour than looks.toml states; in which anything has a colour that is not in looks.toml, or letters another size than the two of
-style.py; or in which two labels of a panel overlap. The tests that draw figures import it."""
+"""Importing this module makes style.save refuse a figure in which a line, whose label begins with the name of a
+deformer, has another marker or colour than looks.toml states; in which anything has a colour that is not in looks.toml,
+or letters another size than the two of style.py; or in which two labels of a panel overlap. The tests that draw figures
+import it."""
 import itertools
 import re
 import unittest.mock
@@ -11,7 +12,8 @@ from words import looks
 
 by_name = {name: deformer for deformer in looks.listed for name in (looks.of(deformer).name, looks.short(deformer))}
 palette = looks.palette.values(), [look["color"] for look in looks.listed.values() if "color" in look]
-allowed = {color for value in itertools.chain(*palette) for color in ([value] if isinstance(value, str) else value)} | {"#FFFFFF"}
+allowed = {color for value in itertools.chain(*palette)
+           for color in ([value] if isinstance(value, str) else value)} | {"#FFFFFF"}
 
 
 def hex_of(color):
@@ -37,11 +39,13 @@ def wrongly_drawn(figure):
 
 
 def strange_colors(figure):
-    """The colours of lines, marks, areas and words that looks.toml does not have. Those of a scale (a colour bar) are not compared."""
+    """The colours of lines, marks, areas and words that looks.toml does not have. Those of a scale (a colour bar) are
+    not compared."""
     found = set()
     for axes in (axes for axes in figure.axes if axes.get_label() != "<colorbar>"):
         for line in axes.lines:
-            found |= {line.get_color(), *([line.get_markerfacecolor(), line.get_markeredgecolor()] if line.get_marker() != "None" else [])}
+            found |= {line.get_color(), *([line.get_markerfacecolor(), line.get_markeredgecolor()]
+                                          if line.get_marker() != "None" else [])}
         for area in axes.collections:
             if area.get_array() is None:
                 found |= {tuple(color) for color in (*area.get_facecolor(), *area.get_edgecolor())}
@@ -61,19 +65,25 @@ def overlaps(figure):
     figure.draw_without_rendering()  # computes the places of all words
     found = []
     for axes in (axes for axes in figure.axes if axes.get_visible()):
-        words = [axes.title, axes.xaxis.label, axes.yaxis.label, *axes.texts, *(axes.get_legend().get_texts() if axes.get_legend() else ())]
+        words = [axes.title, axes.xaxis.label, axes.yaxis.label, *axes.texts,
+                 *(axes.get_legend().get_texts() if axes.get_legend() else ())]
         for axis in (axes.xaxis, axes.yaxis) if axes.axison else ():
             low, high = sorted(axis.get_view_interval())
-            words += [name for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high for name in (tick.label1, tick.label2)]
-        boxes = [(one.get_text(), text.Text.get_window_extent(one).padded(-1)) for one in words if one.get_visible() and one.get_text()]
-        found += [f"{one} | {other}" for (one, box), (other, its) in itertools.combinations(boxes, 2) if box.overlaps(its)]
+            words += [name for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high
+                      for name in (tick.label1, tick.label2)]
+        boxes = [(one.get_text(), text.Text.get_window_extent(one).padded(-1)) for one in words if one.get_visible()
+                 and one.get_text()]
+        found += [f"{one} | {other}" for (one, box), (other, its) in itertools.combinations(boxes, 2)
+                  if box.overlaps(its)]
     return found
 
 
 def save_checked(figure, stem, *rest, save=style.save, **options):
     style.break_words(figure)
-    for words, wrong in (("not drawn as in looks.toml", wrongly_drawn(figure)), ("no colour of looks.toml", strange_colors(figure)),
-                         ("no size of letters of style.py", strange_sizes(figure)), ("labels that overlap", overlaps(figure))):
+    for words, wrong in (("not drawn as in looks.toml", wrongly_drawn(figure)),
+                         ("no colour of looks.toml", strange_colors(figure)),
+                         ("no size of letters of style.py", strange_sizes(figure)),
+                         ("labels that overlap", overlaps(figure))):
         if wrong:
             raise AssertionError(f"{stem.name}: {words}: {', '.join(map(str, wrong))}")
     figure.set_layout_engine("none")  # what was checked is saved: its layout and words are not computed again

@@ -1,4 +1,5 @@
-"""The sentences and the table on the nearest method within a time. Reference: small tables of a comparison, decided by hand."""
+"""The sentences and the table on the nearest method within a time. Reference: small tables of a comparison, decided by
+hand."""
 import re
 import unittest
 
@@ -28,22 +29,23 @@ class ComparedMethods(ResultsTest):
 
     def test_each_time_has_its_nearest_method_and_those_that_may_be_as_near(self):
         short, middle, _, clips = compared_methods.Compared(self.folder).answers()
-        self.assertEqual(short, "Within 0.1 ms per frame, DQS leaves 86 % of LBS's error (10 mm from flesh on a body of 1.7 m; LBS may be "
-                                "as near).")
-        self.assertEqual(middle, "Within 1 ms, quasi-Newton leaves 32 % with the flesh known (3.8 mm); if bones hold the flesh as rigid "
-                                 "capsules, vertex block descent is nearer. With guessed flesh, quasi-Newton leaves 48 % (5.8 mm; PBS and "
-                                 "PBS with smooth weights may be as near); if bones hold the flesh as rigid capsules, vertex block descent "
-                                 "is nearer. Of the methods that take nothing of the flesh, PBS leaves 57 % (6.8 mm).")
-        self.assertEqual(clips, "Played along a clip, each frame from the one before, quasi-Newton leaves 16 to 24 % (the same frames "
-                                "alone: 32 to 48 %) and PBS leaves 28 to 43 % (the same frames alone: 57 to 86 %) within 1 ms; "
-                                "6 frames of each "
+        self.assertEqual(short, "Within 0.1 ms per frame, DQS leaves 86 % of LBS's error (10 mm from flesh on a body "
+                                "of 1.7 m; LBS may be as near).")
+        self.assertEqual(middle, "Within 1 ms, quasi-Newton leaves 32 % with the flesh known (3.8 mm); if bones hold "
+                                 "the flesh as rigid capsules, vertex block descent is nearer. With guessed flesh, "
+                                 "quasi-Newton leaves 48 % (5.8 mm; PBS and PBS with smooth weights may be as near); "
+                                 "if bones hold the flesh as rigid capsules, vertex block descent is nearer. "
+                                 "Of the methods that take nothing of the flesh, PBS leaves 57 % (6.8 mm).")
+        self.assertEqual(clips, "Played along a clip, each frame from the one before, quasi-Newton leaves 16 to 24 % "
+                                "(the same frames alone: 32 to 48 %) and PBS leaves 28 to 43 % (the same frames alone: "
+                                "57 to 86 %) within 1 ms; 6 frames of each "
                                 "clip have a reference.")
 
     def test_one_sentence_answers_for_who_has_to_choose(self):
         compared = compared_methods.Compared(self.folder)
-        self.assertEqual(compared.headline(), "With 1 ms per frame, quasi-Newton has the least error: it leaves 32 % of the error of LBS "
-                         "if material and springs of the flesh are known, and 48 % if they are guessed; of the methods that need none of "
-                         "this, "
+        self.assertEqual(compared.headline(), "With 1 ms per frame, quasi-Newton has the least error: it leaves 32 % "
+                                              "of the error of LBS if material and springs of the flesh are known, "
+                                              "and 48 % if they are guessed; of the methods that need none of this, "
                          "PBS leaves 57 % and delta mush 75 %.")
 
         def takes_nothing(row):
@@ -56,28 +58,33 @@ class ComparedMethods(ResultsTest):
         def level(row):
             row["decision"] = "level" if "pbs" not in (row["first"], row["second"]) else row["decision"]
 
-        self.assertIn("quasi-Newton leaves 32 % with the flesh known (3.8 mm; level with vertex block descent, neo-Hookean XPBD, XPBD, "
-                      "projective dynamics and 4 more). With", self.changed("decisions", level).answer(1.0))
+        self.assertIn("quasi-Newton leaves 32 % with the flesh known (3.8 mm; level with vertex block descent, "
+                      "neo-Hookean XPBD, XPBD, projective dynamics and 4 more). With",
+                      self.changed("decisions", level).answer(1.0))
 
     def test_a_slow_deformer_of_the_users_own_has_a_column_and_a_sentence(self):
         """30 ms; PBS is decided to be nearer, and nothing is decided between it and LBS."""
         file = self.folder / "methods.csv"
         rows = [dict(row) for row in records.read_rows(file)]
-        longest = [row | {"budget_ms": "inf"} for row in rows if row["table"] == "known" and float(row["budget_ms"]) == 10.0]
-        mine = {"method": "mine", "takes": "", "setting": "", "ms": 30.0, "share": 0.98, "share_low": 0.93, "share_high": 1.03,
-                "within": "doubled", "letters": "z"}
+        longest = [row | {"budget_ms": "inf"} for row in rows if row["table"] == "known"
+                   and float(row["budget_ms"]) == 10.0]
+        mine = {"method": "mine", "takes": "", "setting": "", "ms": 30.0, "share": 0.98, "share_low": 0.93,
+                "share_high": 1.03, "within": "doubled", "letters": "z"}
         write_table(file, rows + longest + [longest[0] | mine])
         decisions = [dict(row) for row in records.read_rows(self.folder / "decisions.csv")]
         write_table(self.folder / "decisions.csv", decisions + [decisions[0] | {
-            "table": "known", "budget_ms": "inf", "without_body": "", "first": "mine", "second": "pbs", "decision": "second_is_nearer"}])
+            "table": "known", "budget_ms": "inf", "without_body": "", "first": "mine", "second": "pbs",
+            "decision": "second_is_nearer"}])
         compared = compared_methods.Compared(self.folder)
-        shares = {method: compared_methods.percent(compared.row("known", 10.0, method)["share"]) for method in ("dqs", "delta_mush", "pbs")}
+        shares = {method: compared_methods.percent(compared.row("known", 10.0, method)["share"])
+                  for method in ("dqs", "delta_mush", "pbs")}
         self.assertEqual(compared.own_answers(), [
-            f"mine leaves 98 % [93, 103] of the error of LBS in 30 ms per frame ({rows[0]['poses']} poses); with at most 10 ms, DQS leaves "
-            "{dqs} %, delta mush leaves {delta_mush} % and PBS leaves {pbs} %. It is too slow for 0.1 to 10 ms. Decided: PBS is "
-            "nearer.".format(**shares)])
+            f"mine leaves 98 % [93, 103] of the error of LBS in 30 ms per frame ({rows[0]['poses']} poses); "
+            "with at most 10 ms, DQS leaves {dqs} %, delta mush leaves {delta_mush} % and PBS leaves {pbs} %. "
+            "It is too slow for 0.1 to 10 ms. Decided: PBS is nearer.".format(**shares)])
         self.assertIn(["mine", "not stated", "", "", "", "98 [93, 103] z"], list(compared.table("known")))
-        self.assertEqual([compared_methods.time_name(ms) for ms in compared.columns_ms], ["0.1 ms", "1 ms", "10 ms", "any time"])
+        self.assertEqual([compared_methods.time_name(ms) for ms in compared.columns_ms],
+                         ["0.1 ms", "1 ms", "10 ms", "any time"])
         self.assertNotEqual(compared.nearest("known", 10.0, takes_nothing=True)["method"], "mine")
 
     def test_what_is_the_same_with_known_and_with_guessed_flesh_is_stated_once(self):
@@ -111,13 +118,15 @@ class ComparedMethods(ResultsTest):
         def all_late(row):
             row["within"] = "no"
 
-        self.assertEqual(self.changed("methods", all_late).answer(1.0), "Within 1 ms, no method is fast enough on this machine.")
+        self.assertEqual(self.changed("methods", all_late).answer(1.0), "Within 1 ms, no method is fast enough on this "
+                                                                        "machine.")
 
     def test_where_nothing_is_nearer_than_lbs_it_says_so(self):
         def lbs_first(row):
             row["share"] = 2.0 if row["method"] == "dqs" else row["share"]
 
-        self.assertEqual(self.changed("methods", lbs_first).answer(0.1), "Within 0.1 ms per frame, no method is nearer than LBS (12 mm "
+        self.assertEqual(self.changed("methods", lbs_first).answer(0.1),
+                         "Within 0.1 ms per frame, no method is nearer than LBS (12 mm "
                          "from flesh on a body of 1.7 m; delta mush, direct delta mush and DQS may be as near).")
 
     def test_a_decision_that_depends_names_the_variants_on_which_the_other_is_nearer(self):
@@ -130,8 +139,8 @@ class ComparedMethods(ResultsTest):
         compared = self.changed("pairs", on_two)
         self.assertEqual(compared.where_nearer("known", 1.0, "vbd", "quasi_newton"), ["nu_0.3", "rigid_capsules"])
         self.assertEqual(compared.where_nearer("known", 1.0, "quasi_newton", "vbd"), ["smooth"])
-        self.assertIn("; if the flesh can be compressed (Poisson\u2019s ratio 0.3) or bones hold the flesh as rigid capsules, vertex block "
-                      "descent is nearer", compared.answer(1.0))
+        self.assertIn("; if the flesh can be compressed (Poisson\u2019s ratio 0.3) or bones hold the flesh as rigid "
+                      "capsules, vertex block descent is nearer", compared.answer(1.0))
 
     def with_lbs_nearer_on(self, members):
         """quasi-Newton is nearer than LBS on all variants but these, on which no method is."""
@@ -149,8 +158,8 @@ class ComparedMethods(ResultsTest):
         self.assertGreaterEqual(len(all_of_them), 3)
         self.assertEqual(self.with_lbs_nearer_on([]).familiar_ones("known", 1.0, "quasi_newton"), "nearer than LBS")
         self.assertEqual(self.with_lbs_nearer_on(["rigid_capsules"]).familiar_ones("known", 1.0, "quasi_newton"),
-                         f"nearer than LBS for {len(all_of_them) - 1} of {len(all_of_them)} reference variants, not decided if bones hold "
-                         "the flesh as rigid capsules")
+                         f"nearer than LBS for {len(all_of_them) - 1} of {len(all_of_them)} reference variants, "
+                         "not decided if bones hold the flesh as rigid capsules")
         self.assertEqual(self.with_lbs_nearer_on(all_of_them[1:]).familiar_ones("known", 1.0, "quasi_newton"),
                          f"nearer than LBS for 1 of {len(all_of_them)} reference variants, not decided if "
                          f"{compared_methods.assumed(all_of_them[1:])}")
@@ -169,12 +178,13 @@ class ComparedMethods(ResultsTest):
     def test_the_table_has_the_method_with_the_least_share_first_and_its_letters(self):
         table = list(compared_methods.Compared(self.folder).table("known"))
         self.assertEqual(len(table), 10)
-        self.assertEqual(table[1], ["vertex block descent", "material, springs, initial guess", "", "34 [31, 41] b\u2020",
-                                    "20 [18, 24] b\u2020"])
+        self.assertEqual(table[1], ["vertex block descent", "material, springs, initial guess", "",
+                                    "34 [31, 41] b\u2020", "20 [18, 24] b\u2020"])
         self.assertIn(["DQS", "nothing", "86 [77, 103] a", "86 [77, 103] h", "86 [77, 103] h"], table)
 
     def test_pbs_has_its_range_and_its_distance(self):
-        self.assertIn("PBS leaves 51 to 68 % of the error of LBS at the joints", compared_methods.Compared(self.folder).share_of_pbs())
+        self.assertIn("PBS leaves 51 to 68 % of the error of LBS at the joints",
+                      compared_methods.Compared(self.folder).share_of_pbs())
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
-"""Reference: the definition. Records are read by name, errors name what is missing, and figures show the records' values and their origin.
-The paper's own figures show the recorded frames, name the origin of body and motion, and are refused without records."""
+"""Reference: the definition. Records are read by name, errors name what is missing, and figures show the records'
+values and their origin. The paper's own figures show the recorded frames, name the origin of body and motion, and are
+refused without records."""
 import json
 import unittest
 
@@ -63,13 +64,16 @@ class Figures(ResultsTest):
         self.assertFalse(old.exists())
         for name in ("volume_over_angle", "volume_over_clip", "volume_over_iterations"):
             for ending in ("png", "pdf", "svg"):
-                self.assertIn(synthetic_records.revision.encode(), (self.results / "figures" / f"{name}.{ending}").read_bytes())
-        rows = [row for row in self.rows("volume_over_angle") if row["deformer"] == "lbs" and row["scene"] == "limb_twist"]
+                self.assertIn(synthetic_records.revision.encode(),
+                              (self.results / "figures" / f"{name}.{ending}").read_bytes())
+        rows = [row for row in self.rows("volume_over_angle") if row["deformer"] == "lbs"
+                and row["scene"] == "limb_twist"]
         self.assertEqual([float(row["volume_change_pct"]) for row in rows], [-angle / 10 for angle in range(0, 181, 5)])
         signed = [row for row in self.rows("volume_over_iterations")
                   if row["pose"] == "all frames" and row["measure"] == "volume_change_pct"]
         self.assertEqual([(row["iterations"], row["q10"], row["median"], row["q90"]) for row in signed],
-                         [(count, "-3.0", "-2.0", "-1.0") for count in ("1", "24", "96")])  # from the record, not computed from the rows
+                         # The quantiles are from the record, not computed from the rows.
+                         [(count, "-3.0", "-2.0", "-1.0") for count in ("1", "24", "96")])
         with self.assertRaises(SystemExit):
             make_all.main(self.results / "figures")
 
@@ -94,9 +98,10 @@ class OtherStudies(ResultsTest):
     def test_the_record_that_judges_a_part_is_named_by_it(self):
         record = self.results / "record"
         plan, repeated = self.results / "volume" / "plan.json", self.results / "repeated.json"
-        for extent, first, is_behind in (("quick", str(record), True), ("full", str(record), False), ("quick", str(self.results), False),
-                                         ("quick", 3, False)):
-            for file, content in ((record / "provenance.json", {"origins": []}), (plan, {"extent": extent}), (repeated, {"first": first})):
+        for extent, first, is_behind in (("quick", str(record), True), ("full", str(record), False),
+                                         ("quick", str(self.results), False), ("quick", 3, False)):
+            for file, content in ((record / "provenance.json", {"origins": []}), (plan, {"extent": extent}),
+                                  (repeated, {"first": first})):
                 file.parent.mkdir(parents=True, exist_ok=True)
                 file.write_text(json.dumps(content))
             with self.subTest(f"{extent} {first}"):
@@ -105,12 +110,14 @@ class OtherStudies(ResultsTest):
     def test_verification_shows_the_finest_mesh_of_each_benchmark(self):
         synthetic_records.write_verification(self.results)
         rows = [row for row in self.drawn("verification") if row["problem"] == "cantilever"]
-        self.assertEqual([(row["element_order"], float(row["difference_pct"])) for row in rows], [("1", -10.0), ("2", -0.625)])
+        self.assertEqual([(row["element_order"], float(row["difference_pct"])) for row in rows],
+                         [("1", -10.0), ("2", -0.625)])
         self.refused_without("verification/verification.csv")
 
     def test_the_fit_shows_moduli_with_volume_constraints_alone(self):
         synthetic_records.write_fit(self.results)
-        young = {(row["of"], float(row["at"])): float(row["value"]) for row in self.drawn("fit") if row["shown"] == "young_kpa"}
+        young = {(row["of"], float(row["at"])): float(row["value"]) for row in self.drawn("fit")
+                 if row["shown"] == "young_kpa"}
         self.assertEqual(len(young), 6)
         self.assertAlmostEqual(young["300 vertices, 24 iterations", 0.2], 480.0)
         self.refused_without("fit/sag.csv")
@@ -140,7 +147,8 @@ class OtherStudies(ResultsTest):
     def test_poses_solved_within_a_time_and_the_methods_that_solve_none(self):
         synthetic_records.write_work_precision(self.results)
         rows = self.drawn("solved_within_time")
-        solved = {(float(row["target_pct"]), row["method"], float(row["budget_ms"])): float(row["solved_pct"]) for row in rows}
+        solved = {(float(row["target_pct"]), row["method"], float(row["budget_ms"])): float(row["solved_pct"])
+                  for row in rows}
         self.assertAlmostEqual(solved[20.0, "vbd", 10.0], 50.0)
         self.assertEqual(solved[20.0, "pbs", 10.0], 0.0)
         drawn = (self.results / "figures" / "solved_within_time.svg").read_text()
@@ -152,8 +160,10 @@ class OtherStudies(ResultsTest):
 
     def test_deformers_of_the_users_own_have_a_curve_and_their_clocks_are_named(self):
         synthetic_records.write_work_precision(self.results)
-        synthetic_records.add_own_deformers(self.results / "work_precision", {"mine": "own", "other_one": "wall", "linked": "processor"})
-        self.assertIn(("curve", "mine", "8.0"), [(row["shown"], row["method"], row["ms"]) for row in self.drawn("error_against_time")])
+        synthetic_records.add_own_deformers(self.results / "work_precision",
+                                            {"mine": "own", "other_one": "wall", "linked": "processor"})
+        self.assertIn(("curve", "mine", "8.0"),
+                      [(row["shown"], row["method"], row["ms"]) for row in self.drawn("error_against_time")])
         self.assertIn(">mine<", (self.results / "figures" / "error_against_time.svg").read_text())
         self.assertIn(" mine: time as the program states it. other_one: wall time of the program over its poses. Timed",
                       (self.results / "figures" / "error_against_time.caption.txt").read_text())
@@ -161,14 +171,16 @@ class OtherStudies(ResultsTest):
     def test_the_bench_shows_cost_a_constraint(self):
         synthetic_records.write_bench(self.results)
         rows = self.drawn("scaling")
-        cost = {(row["order"], row["precision"], row["tets"]): row for row in rows if row["shown"] == "ns_per_constraint"}
+        cost = {(row["order"], row["precision"], row["tets"]): row for row in rows
+                if row["shown"] == "ns_per_constraint"}
         self.assertEqual(len(cost), 8)
         plain = cost["plain", "f32", "400"]  # 24 us per constraint and step of 24 iterations
         for column, expected in (("value", 1000.0), ("low", 900.0), ("high", 1100.0)):
             self.assertAlmostEqual(float(plain[column]), expected)
         self.assertAlmostEqual(float(cost["ordered", "f64", "5000"]["value"]), 250.0)
         self.assertEqual({row["value"] for row in rows if row["shown"] == "speedup_by_threads"}, {"1.5"})
-        fits = [(row["order"], row["precision"], row["value"], row["low"]) for row in rows if row["shown"] == "exponent"]
+        fits = [(row["order"], row["precision"], row["value"], row["low"]) for row in rows
+                if row["shown"] == "exponent"]
         self.assertEqual(fits, [("ordered", "f32", "1.0", "")])
         bench = self.results / "timing" / "bench" / "bench.json"
         bench.write_text(json.dumps(json.loads(bench.read_text()) | {"schema": 1}))
@@ -184,7 +196,8 @@ class OwnFigures(ResultsTest):
     def frames(self, scene="limb_bend"):
         synthetic_frames.write_frames(self.results, scene, frames=10)
         (self.results / "frames" / scene / "binding.csv").write_text(
-            "vertex,bone,parameter,rest_distance_m,blended,jiggles\n1,forearm,0.5,0.2,0,0\n0,upper,0.25,0.1,0,0\n2,forearm,1.5,0.3,1,1\n")
+            "vertex,bone,parameter,rest_distance_m,blended,jiggles\n1,forearm,0.5,0.2,0,0\n0,upper,0.25,0.1,0,0\n"
+            "2,forearm,1.5,0.3,1,1\n")
         return recorded_frames.Frames(self.results, scene)
 
     def test_projections_lie_on_the_posed_bone_within_its_ends(self):
@@ -197,7 +210,8 @@ class OwnFigures(ResultsTest):
         frames = self.frames()
         self.assertEqual(frames.frame_at_angle(70), 7)
         self.assertEqual(frames.row("pbs", 7)["min_section_pct"], "93")
-        self.assertEqual(frames.skin("lbs", 2), frames.tets("lbs", 2))  # without a rendered surface, the boundary of the tets
+        # Without a rendered surface, the boundary of the tets.
+        self.assertEqual(frames.skin("lbs", 2), frames.tets("lbs", 2))
         for words, action in (("lbs_000099.vtu: does not exist", lambda: frames.tets("lbs", 99)),
                               ("no deformer labelled pbs_jiggle", lambda: frames.row("pbs_jiggle", 1)),
                               ("bones.csv: no frame 99", lambda: frames.bones(99))):
@@ -225,12 +239,16 @@ class OwnFigures(ResultsTest):
             (folder / "frames" / f"{label}_surface_000003.vtp").write_text(text)
         away_mm = bodies.distances_mm(frames, 3, "lbs", "pbs")
         at_rest = numpy.array(synthetic_frames.skin_of(synthetic_frames.rest))
-        # Coordinates of at most 3 m are written with all digits. They go through ten roundings, and so does the number expected.
+        # Coordinates of at most 3 m are written with all digits. They go through ten roundings, and so does the number
+        # expected.
         rounding_mm = 1000 * numpy.sqrt(3) * 2 * 10 * numpy.finfo(float).eps / 2 * 3
-        numpy.testing.assert_allclose(away_mm, 1000 * 0.1 * (1.1 - 1.05) * 3 * numpy.linalg.norm(at_rest, axis=1), rtol=0, atol=rounding_mm)
+        numpy.testing.assert_allclose(away_mm, 1000 * 0.1 * (1.1 - 1.05) * 3 * numpy.linalg.norm(at_rest, axis=1),
+                                      rtol=0, atol=rounding_mm)
         tets = frames.tets("pbs", 3)
-        self.assertEqual(bodies.bone_under(frames, 2, tets), "bone 0")  # only the first corner of the first tet carries it
-        self.assertEqual(bodies.bone_under(frames, 1, tets), "bone 2")  # -1/2 of vertex 1, and equal halves of 2, 3 and 4
+        # Only the first corner of the first tet carries it.
+        self.assertEqual(bodies.bone_under(frames, 2, tets), "bone 0")
+        # -1/2 of vertex 1, and equal halves of 2, 3 and 4.
+        self.assertEqual(bodies.bone_under(frames, 1, tets), "bone 2")
 
     def test_heading_is_forward_along_the_floor(self):
         tails = {"hip.L": [0, 1, -1.0], "hip.R": [0, 0.5, 1.0]}
@@ -265,17 +283,20 @@ class OwnFigures(ResultsTest):
     def write_timing(self, orders=timing.orders):
         synthetic_records.write_origin(self.results / "timing")
         synthetic_records.write_table(self.results / "timing" / "timing.csv", [
-            {"mesh": mesh, "body": mesh[:-2], "model": model, "stands_in": stands_in, "vertices": 200, "edges": 600, "tets": 400,
-             "vertices_over_table_1": 0.5, "edges_over_table_1": 0.75, "tets_over_table_1": 0.8, "variant": order, "precision": precision,
-             "total_ms": 4.0 if order == "plain" else 0.5, "frames_per_s": 250, "paper_frames_per_s": 90.5, "paper_ms": 11.05,
-             "paper_ct_ms": 0.52, "cpu_model": "a processor"}
-            for mesh, model, stands_in in (("human_1", "Man", 1), ("man_1", "Man", 0), ("human_9", "-", 0)) for order, precision in orders])
+            {"mesh": mesh, "body": mesh[:-2], "model": model, "stands_in": stands_in, "vertices": 200, "edges": 600,
+             "tets": 400, "vertices_over_table_1": 0.5, "edges_over_table_1": 0.75, "tets_over_table_1": 0.8,
+             "variant": order, "precision": precision, "total_ms": 4.0 if order == "plain" else 0.5,
+             "frames_per_s": 250, "paper_frames_per_s": 90.5, "paper_ms": 11.05, "paper_ct_ms": 0.52,
+             "cpu_model": "a processor"}
+            for mesh, model, stands_in in (("human_1", "Man", 1), ("man_1", "Man", 0), ("human_9", "-", 0))
+            for order, precision in orders])
 
     def test_table_1_shows_the_papers_own_body_and_the_counts_it_prints(self):
         self.write_timing()
         self.make_all("table_1_timing")
         row, = self.rows("table_1_timing")
-        self.assertEqual((row["mesh"], row["vertices"], row["edges"], row["tets"]), ("man", "400 / 200", "800 / 600", "500 / 400"))
+        self.assertEqual((row["mesh"], row["vertices"], row["edges"], row["tets"]),
+                         ("man", "400 / 200", "800 / 600", "500 / 400"))
         self.assertEqual((row["paper_ms"], row["paper_ct_ms"], row["plain_f64_ms"], row["ordered_f32_ms"]),
                          ("11.1", "0.52", "4.00", "0.50"))
         text = (self.results / "figures" / "table_1_timing.tex").read_text()
@@ -291,7 +312,8 @@ class OwnFigures(ResultsTest):
 class Origin(ResultsTest):
     def test_it_is_of_the_runs_behind_the_figure_and_no_others(self):
         synthetic_records.write_study(self.results)
-        synthetic_records.write_origin(self.results / "volume" / "a_first", of="f" * 40)  # before them in alphabetical order
+        # This run is before them in alphabetical order.
+        synthetic_records.write_origin(self.results / "volume" / "a_first", of="f" * 40)
         scenes = {}
         for name in ("limb_twist", "limb_bend"):
             run = self.results / "volume" / name / "run.json"
@@ -301,15 +323,17 @@ class Origin(ResultsTest):
             run.write_text(json.dumps(record))
             scenes[name] = records.scene_hash(record)
         self.assertEqual(listed["volume_over_angle"].origin(self.results), {
-            "version": "0.1.0", "git_revision": synthetic_records.revision, "git_dirty": False, "cpu_model": "a processor",
-            "scenes": scenes, "rights": ""})
+            "version": "0.1.0", "git_revision": synthetic_records.revision, "git_dirty": False,
+            "cpu_model": "a processor", "scenes": scenes, "rights": ""})
         self.make_all("volume_over_angle")
         shown = (self.results / "figures" / "volume_over_angle.png").read_bytes()
-        for text in (synthetic_records.revision, "; a processor; ", *(f"scene {name} {digest}" for name, digest in scenes.items())):
+        for text in (synthetic_records.revision, "; a processor; ",
+                     *(f"scene {name} {digest}" for name, digest in scenes.items())):
             self.assertIn(text.encode(), shown)
 
     def test_all_revisions_and_processors_are_named(self):
-        runs = {name: {"work": {"name": name}, "provenance": {"git_revision": name * 4, "cpu_model": cpu, "git_dirty": name == "b"}}
+        runs = {name: {"work": {"name": name}, "provenance": {"git_revision": name * 4, "cpu_model": cpu,
+                                                              "git_dirty": name == "b"}}
                 for name, cpu in (("a", "one"), ("b", "two"), ("c", "one"))}
         origin = records.origin_of(runs)
         self.assertEqual((origin["git_revision"], origin["cpu_model"]), ("aaaa and bbbb and cccc", "one and two"))

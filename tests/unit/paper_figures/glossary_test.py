@@ -1,5 +1,5 @@
-"""Every term has one short sentence, a page has a link from the first use of each, and experiments/GLOSSARY.md is current. Reference: the
-definition, and the order of the alphabet."""
+"""Every term has one short sentence, a page has a link from the first use of each, and experiments/GLOSSARY.md is
+current. Reference: the definition, and the order of the alphabet."""
 import re
 import unittest
 
@@ -36,13 +36,16 @@ class Links(unittest.TestCase):
         return re.findall(link, whole), re.sub(link, r"\2", whole)
 
     def test_the_first_use_of_each_is_a_link_and_the_text_stays(self):
-        text = "<p>Tets, XPBD and PBS-like tets: the\nreference&#x27;s own error of PBS, then PBS; poisson\u2019s ratio, pbs.k_stretch</p>"
-        self.assertEqual(self.linked(text), ([("tet", "Tets"), ("bound-of-the-references-error", "reference&#x27;s own error"),
-                                              ("pbs", "PBS"), ("poissons-ratio", "poisson\u2019s ratio")], text))
+        text = ("<p>Tets, XPBD and PBS-like tets: the\nreference&#x27;s own error of PBS, then PBS; poisson\u2019s "
+                "ratio, pbs.k_stretch</p>")
+        self.assertEqual(self.linked(text),
+                         ([("tet", "Tets"), ("bound-of-the-references-error", "reference&#x27;s own error"),
+                           ("pbs", "PBS"), ("poissons-ratio", "poisson\u2019s ratio")], text))
         self.assertEqual(self.linked("tet <b>Tet</b> LBS", ["lbs"]), ([("tet", "tet")], "tet <b>Tet</b> LBS"))
 
     def test_none_is_in_a_tag_a_link_code_or_a_heading(self):
-        for text in ('<img alt="PBS">', "<a href='x'><b>PBS</b></a>", "<code>PBS</code>", "<h2 id='a'>PBS <i>tet</i></h2>"):
+        for text in ('<img alt="PBS">', "<a href='x'><b>PBS</b></a>", "<code>PBS</code>",
+                     "<h2 id='a'>PBS <i>tet</i></h2>"):
             self.assertEqual(self.linked(text + "<hr/>PBS"), ([("pbs", "PBS")], text + "<hr/>PBS"))
 
 

@@ -1,5 +1,6 @@
-"""Figures are complete or do not exist, every figure is listed with the records that it needs, and none is drawn from records that are
-missing or do not belong together. Reference: the definition, and the contents of the folder after each way in which drawing can end."""
+"""Figures are complete or do not exist, every figure is listed with the records that it needs, and none is drawn from
+records that are missing or do not belong together. Reference: the definition, and the contents of the folder after each
+way in which drawing can end."""
 import importlib
 import inspect
 import json
@@ -22,7 +23,8 @@ from words import captions
 
 class Listing(ResultsTest):
     def test_every_entry_tells_what_to_see_and_has_a_script_that_draws(self):
-        claims = {claim["id"] for claim in tomllib.loads((root / "experiments" / "verdicts" / "claims.toml").read_text())["claim"]}
+        claims = {claim["id"]
+                  for claim in tomllib.loads((root / "experiments" / "verdicts" / "claims.toml").read_text())["claim"]}
         for entry in entries.read():
             with self.subTest(entry.name):
                 self.assertIn(entry.mark, entries.marks)
@@ -50,7 +52,8 @@ class Listing(ResultsTest):
             self.assertRegex(cause, f"^{self.results}.*: does not exist$")
             named, = [line for line in said.splitlines() if line.endswith(f" not drawn: {cause}")]
             self.assertIn(entry.name, re.findall(r"\w+", named))
-        self.assertEqual({file.name for file in self.results.glob("figures/*")}, {f"{entry.name}.cause.txt" for entry in entries.read()})
+        self.assertEqual({file.name for file in self.results.glob("figures/*")},
+                         {f"{entry.name}.cause.txt" for entry in entries.read()})
 
     def test_one_cause_of_several_figures_is_printed_once(self):
         synthetic_records.write_study(self.results)
@@ -65,7 +68,8 @@ class Listing(ResultsTest):
 
 
 def quick_studies():
-    """The studies that ./reproduce runs without --full, from the definitions of the studies that study.hpp declares, and the sets there."""
+    """The studies that ./reproduce runs without --full, from the definitions of the studies that study.hpp declares,
+    and the sets there."""
     folder = root / "experiments" / "studies"
     header = (folder / "study.hpp").read_text()
     not_quick = set(re.findall(r"constexpr Sets (\w+) = \{Extent::none", header))
@@ -73,7 +77,8 @@ def quick_studies():
     found = [match for source in folder.rglob("*.cpp") for match in entry.findall(source.read_text())]
     declared = re.findall(r"^Study (\w+)_study\(\);", header, re.MULTILINE)
     if sorted(declared) != sorted(name for name, _ in found):
-        raise AssertionError(f"declared {sorted(declared)}, but entries of the expected form are {sorted(name for name, _ in found)}")
+        raise AssertionError(f"declared {sorted(declared)}, but entries of the expected form are "
+                             f"{sorted(name for name, _ in found)}")
     return {name for name, rest in found if not not_quick & set(re.findall(r"\w+", rest))}
 
 
@@ -138,7 +143,8 @@ class Staleness(ResultsTest):
     def test_a_figure_that_is_refused_leaves_no_old_one(self):
         self.make_all("volume_over_angle")
         self.refused_without("volume/limb_bend/metrics.csv", "volume_over_angle")
-        self.assertEqual([file.name for file in self.results.glob("figures/volume_over_angle.*")], ["volume_over_angle.cause.txt"])
+        self.assertEqual([file.name for file in self.results.glob("figures/volume_over_angle.*")],
+                         ["volume_over_angle.cause.txt"])
 
     def test_two_revisions_in_one_figure(self):
         synthetic_records.write_origin(self.volume / "limb_bend", of="f" * 40)
@@ -157,7 +163,8 @@ class Staleness(ResultsTest):
         self.assert_stale("limb_bend is no run of its study's plan.json")
 
     def test_a_table_changed_after_its_run(self):
-        table, ended_s = self.volume / "limb_twist" / "metrics.csv", (self.volume / "limb_twist" / "run.json").stat().st_mtime
+        table, ended_s = self.volume / "limb_twist" / "metrics.csv", (self.volume / "limb_twist"
+                                                                      / "run.json").stat().st_mtime
         os.utime(table, (ended_s + 30, ended_s + 30))
         self.make_all("volume_over_angle")
         os.utime(table, (ended_s + 90, ended_s + 90))
@@ -180,7 +187,8 @@ class WholeFile(ResultsTest):
 
     def drawn_elsewhere(self, lines):
         """How a separate process that draws has ended."""
-        text = f"import os, pathlib, signal, whole_file\nwith whole_file.beside(pathlib.Path({str(self.file)!r})) as path:\n{lines}"
+        text = (f"import os, pathlib, signal, whole_file\nwith whole_file.beside(pathlib.Path({str(self.file)!r})) as "
+                f"path:\n{lines}")
         paths = {**os.environ, "PYTHONPATH": str(pathlib.Path(whole_file.__file__).parent)}
         return subprocess.run([sys.executable, "-B", "-c", text], env=paths, capture_output=True).returncode
 
@@ -206,12 +214,14 @@ class WholeFile(ResultsTest):
         resource.setrlimit(resource.RLIMIT_FSIZE, (1000, usual[1]))  # Python ignores SIGXFSZ, so write() fails
         self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, usual)
         with self.assertRaisesRegex(whole_file.CannotBeWritten,
-                                    "volume.png: cannot be written: File too large"), whole_file.beside(self.file) as path:
+                                    "volume.png: cannot be written: "
+                                    "File too large"), whole_file.beside(self.file) as path:
             path.write_bytes(bytes(5000))
         self.assertEqual((self.file.read_text(), self.names()), ("old", ["volume.png"]))
 
     def test_a_reason_that_is_not_the_systems_is_told_in_its_own_words(self):
-        expected = "volume.png: cannot be written: encoder error -2 when writing image file"  # the words of the image library
+        # The words of the image library.
+        expected = "volume.png: cannot be written: encoder error -2 when writing image file"
         with self.assertRaisesRegex(whole_file.CannotBeWritten, expected), whole_file.beside(self.file):
             raise OSError("encoder error -2 when writing image file")
 

@@ -1,5 +1,5 @@
-"""The name, the colour and the marker of each deformer. Reference: looks.toml, with which checked_looks.py compares every figure that other
-tests draw."""
+"""The name, the colour and the marker of each deformer. Reference: looks.toml, with which checked_looks.py compares
+every figure that other tests draw."""
 import pathlib
 import re
 import tomllib
@@ -23,7 +23,8 @@ class Looks(unittest.TestCase):
         self.assertEqual(len({(entry["color"], entry["marker"]) for entry in own.values()}), len(own))
 
     def test_each_method_of_the_comparison_has_a_name_and_those_that_are_drawn_a_look_of_their_own(self):
-        compared = tomllib.loads((root / "experiments/studies/work_precision/cases.toml").read_text(encoding="utf-8"))["method"]
+        compared = tomllib.loads((root / "experiments/studies/work_precision/cases.toml").read_text(encoding="utf-8"))[
+            "method"]
         self.assertLessEqual({method["name"] for method in compared}, set(looks.listed))
         drawn = [looks.of(method["name"]) for method in compared if "known" in method["tables"]]
         self.assertEqual(len({look.color for look in drawn}), 12)
@@ -31,7 +32,8 @@ class Looks(unittest.TestCase):
     def test_a_deformer_that_is_not_listed_has_its_name_and_a_look_that_depends_on_nothing_else(self):
         listed = {entry.get("color") for entry in looks.listed.values()}
         self.assertFalse(listed & {color for color, _, _ in looks.own})
-        self.assertFalse(listed & {color for color in looks.palette.values() if isinstance(color, str)})  # of what is no deformer
+        # These are the colours of what is no deformer.
+        self.assertFalse(listed & {color for color in looks.palette.values() if isinstance(color, str)})
         first = looks.of("mine")
         for other in ("other_one", "linked"):
             self.assertNotEqual(looks.of(other), first)
@@ -46,8 +48,10 @@ class Looks(unittest.TestCase):
             self.addCleanup(style.pyplot.close, figure)
             return figure
 
-        checks = {"color": checked_looks.strange_colors, "size": checked_looks.strange_sizes, "apart": checked_looks.overlaps}
-        for broken, found in ({"color": "#123456"}, ["#123456"]), ({"size": 9.0}, [9.0]), ({"apart": 0.0}, ["one | other"]):
+        checks = {"color": checked_looks.strange_colors, "size": checked_looks.strange_sizes,
+                  "apart": checked_looks.overlaps}
+        for broken, found in ({"color": "#123456"}, ["#123456"]), ({"size": 9.0},
+                                                                   [9.0]), ({"apart": 0.0}, ["one | other"]):
             for name, check in checks.items():
                 self.assertEqual(check(drawn(**broken)), found if name in broken else [], (name, broken))
             with self.assertRaisesRegex(AssertionError, "^broken: .*" + re.escape(str(found[0]))):
@@ -64,7 +68,8 @@ class Looks(unittest.TestCase):
             self.assertEqual(case_words.of_field("deformer", deformer), looks.of(deformer).name)
 
     def test_no_script_has_a_colour_of_a_deformer_of_its_own(self):
-        named = re.compile(r"""["'](lbs|dqs|pbs|xpbd|vbd|nh_p[12]|delta_mush)["']\s*:\s*\(?[^\n]*(#[0-9A-Fa-f]{6}|style\.\w+)""")
+        named = re.compile(
+            r"""["'](lbs|dqs|pbs|xpbd|vbd|nh_p[12]|delta_mush)["']\s*:\s*\(?[^\n]*(#[0-9A-Fa-f]{6}|style\.\w+)""")
         for file in (root / "paper_figures").rglob("*.py"):
             self.assertIsNone(named.search(file.read_text(encoding="utf-8")), file)
 
@@ -76,7 +81,8 @@ class Looks(unittest.TestCase):
         axes[0][0].plot([0, 1], [0, 1], color=style.ink, marker=look.marker, label="DQS, 90 degrees")
         axes[0][0].plot([0, 1], [0, 1], color=style.ink, marker=look.marker, label="DQS (baseline)")
         axes[0][0].plot([0, 1], [0, 1], color=style.ink, marker=look.marker, label="DQS-like")
-        self.assertEqual(checked_looks.wrongly_drawn(figure), ["DQS, 90 degrees: #262626 s", "DQS (baseline): #262626 s"])
+        self.assertEqual(checked_looks.wrongly_drawn(figure),
+                         ["DQS, 90 degrees: #262626 s", "DQS (baseline): #262626 s"])
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
-"""Reference: the definition. A plot shows the rows that it names, with their numbers in the CSV behind it and under the pointer. A still
-shows tets in the colours of its bar and hides nothing in front of them, and a clip plays at the speed of the records. VTK needs a display;
-xvfb-run provides one."""
+"""Reference: the definition. A plot shows the rows that it names, with their numbers in the CSV behind it and under the
+pointer. A still shows tets in the colours of its bar and hides nothing in front of them, and a clip plays at the speed
+of the records. VTK needs a display; xvfb-run provides one."""
 import re
 import unittest
 import unittest.mock
@@ -29,13 +29,16 @@ class Plots(ResultsTest):
     def titles(self, x_label):
         """The titles under the pointer in the panels with this x axis."""
         page = ElementTree.parse(self.stem.with_suffix(".svg"))
-        return [title.text for group in page.iter(svg + "g") if group.get("data-x") == x_label for title in group.iter(svg + "title")]
+        return [title.text for group in page.iter(svg + "g") if group.get("data-x") == x_label
+                for title in group.iter(svg + "title")]
 
     def test_titles_of_a_line_are_its_numbers(self):
         synthetic_records.write_study(self.results)
-        rows = [row for row in self.drawn("volume_over_angle") if row["deformer"] == "lbs" and row["scene"] == "limb_twist"]
+        rows = [row for row in self.drawn("volume_over_angle") if row["deformer"] == "lbs"
+                and row["scene"] == "limb_twist"]
         shown = [title for title in self.titles("") if title.startswith("LBS: ")]  # the label of the axis is below
-        expected = ["LBS: {:.6g}, {:.6g}".format(float(row["angle_deg"]), float(row["volume_change_pct"])) for row in rows]
+        expected = ["LBS: {:.6g}, {:.6g}".format(float(row["angle_deg"]), float(row["volume_change_pct"]))
+                    for row in rows]
         self.assertEqual(shown[:len(expected)], expected)
 
     def test_titles_lie_where_matplotlib_puts_the_marks(self):
@@ -54,7 +57,8 @@ class Plots(ResultsTest):
         synthetic_records.write_convergence(self.results / "convergence")
         rows = self.drawn("convergence_iterations")
         self.assertEqual(len(rows), 3 * 2 * 4 * 4)  # cases, measures, initial guesses, iterations
-        values = {(row["case"], row["start"], row["measure"], float(row["iteration"])): float(row["value"]) for row in rows}
+        values = {(row["case"], row["start"], row["measure"], float(row["iteration"])): float(row["value"])
+                  for row in rows}
         self.assertEqual(values["human", "lbs", "error_joint_pct", 24.0], 60.0 / 25)
         self.assertEqual(values["limb_twist", "rest_pose", "combined", 0.0], 3.0)
         rows = self.drawn("convergence_mesh")
@@ -96,13 +100,15 @@ class Plots(ResultsTest):
         self.assertIn("converged: at rest, as if undisturbed: 1, 0", shown)
         self.assertEqual(len(shown), 6)
         rows = self.drawn("stability_cells")
-        self.assertEqual([(row["model"], row["value"]) for row in rows], [("pbs", "10"), ("pbs", "1"), ("xpbd", "10"), ("xpbd", "1")])
+        self.assertEqual([(row["model"], row["value"]) for row in rows],
+                         [("pbs", "10"), ("pbs", "1"), ("xpbd", "10"), ("xpbd", "1")])
         self.assertIn("gravity: 1 g to 10 g", self.stem.with_suffix(".svg").read_text())
 
     def test_jiggle_leaves_out_swings_that_were_not_found(self):
         synthetic_records.write_jiggle(self.results / "jiggle")
         rows = [row for row in self.drawn("jiggle_response") if row["varied"] == "k_stretch"]
-        self.assertEqual([(float(row["k_stretch"]), float(row["frequency_hz"])) for row in rows], [(0.1, 10.0), (0.4, 20.0)])
+        self.assertEqual([(float(row["k_stretch"]), float(row["frequency_hz"])) for row in rows],
+                         [(0.1, 10.0), (0.4, 20.0)])
         shown = [title for title in self.titles("k_stretch [1]") if title.startswith("neo-Hookean FEM")]
         self.assertEqual(shown, ["neo-Hookean FEM, linear elements, in time, limb: 0.1, 0.5"])
         self.assertEqual([title for title in self.titles("") if "FEM" in title], [])  # their frequency was chosen
@@ -111,7 +117,8 @@ class Plots(ResultsTest):
         synthetic_records.write_stiffness(self.results / "stiffness")
         drawn = self.drawn("stiffness")
         rows = [row for row in drawn if (row["body"], row["varied"], row["method"]) == ("limb", "time_step_ms", "pbs")]
-        self.assertEqual([(row["time_step_ms"], float(row["stiffness_n_m"])) for row in rows], [("5", 960.0), ("10", 240.0)])
+        self.assertEqual([(row["time_step_ms"], float(row["stiffness_n_m"])) for row in rows],
+                         [("5", 960.0), ("10", 240.0)])
         rows = [row for row in drawn if row["method"] == "xpbd"]
         self.assertEqual({float(row["young_pa"]) for row in rows}, {30e3})
         self.assertEqual({float(row["stiffness_n_m"]) for row in rows}, {50.0})
@@ -124,23 +131,28 @@ class Plots(ResultsTest):
     def test_momentum(self):
         synthetic_records.write_momentum(self.results / "momentum")
         rows = self.drawn("momentum_drift")
-        self.assertEqual(len(rows), 2 * 3 * 3 * 2 * 2)  # bodies, masses, classes, momenta, precisions, without the rows of a whole pass
+        # bodies, masses, classes, momenta, precisions, without the rows of a whole pass.
+        self.assertEqual(len(rows), 2 * 3 * 3 * 2 * 2)
         unweighted = [row for row in rows if row["constraints"] == "volume" and row["masses"] == "unequal_by_eq_8_9"]
         self.assertEqual({row["drift"] for row in unweighted}, {"0.25"})
-        self.assertIn("limb, f32: 0.25, stretch, unequal masses, Eq. 8\u20139", self.titles("change over the momentum exchanged [1]"))
+        self.assertIn("limb, f32: 0.25, stretch, unequal masses, Eq. 8\u20139",
+                      self.titles("change over the momentum exchanged [1]"))
 
     def test_regions(self):
         synthetic_records.write_study(self.results)
         self.drawn("volume_by_region")
         self.assertIn("LBS: -1, spine\u2013chest", self.titles("change [% of the body's volume]"))
-        self.assertEqual([volume.in_words(bones) for bones in (("upper_arm.L",), ("chest", "clavicle.R"), ("thigh.R", "shin.R"))],
+        self.assertEqual([volume.in_words(bones) for bones in (("upper_arm.L",), ("chest", "clavicle.R"),
+                                                               ("thigh.R", "shin.R"))],
                          ["left upper arm", "chest\u2013right clavicle", "right thigh\u2013shin"])
 
     def test_timing(self):
         synthetic_records.write_timing_of_sizes(self.results / "timing")
         rows = self.drawn("timing_sizes")
-        stretch_ms = next(float(row["stretch_ms"]) for row in rows if (row["variant"], row["mesh"]) == ("plain", "man_1654"))
-        self.assertIn(f"stretch: {stretch_ms:.6g}, man, 1,654", self.titles("processor time [ms]"))  # without LBS and bind
+        stretch_ms = next(float(row["stretch_ms"]) for row in rows
+                          if (row["variant"], row["mesh"]) == ("plain", "man_1654"))
+        # The time of stretch is without LBS and bind.
+        self.assertIn(f"stretch: {stretch_ms:.6g}, man, 1,654", self.titles("processor time [ms]"))
         expected = {"ordered, f32: 20000, 2.5", "paper, by frame rate: 1654, 11", "paper, by CT: 1654, 0.52"}
         self.assertLessEqual(expected, set(self.titles("vertices")))
 
@@ -174,7 +186,8 @@ class Stills(ResultsTest):
             color = rendering.inverted_color if ratio < 0 else rendering.ratio_colors(rendering.ratio_scale(ratio))[:3]
             around = self.shot([rendering.tets(frames.tets("lbs", frame))], 0.3 * frame)[30:60, 45:75].reshape(-1, 3)
             pixel = around[around.sum(axis=1).argmax()]  # the brightest: a highlight would change its hue
-            numpy.testing.assert_allclose(pixel / pixel.max(), numpy.array(color) / max(color), atol=0.05)  # without shading
+            # The quotients are without shading.
+            numpy.testing.assert_allclose(pixel / pixel.max(), numpy.array(color) / max(color), atol=0.05)
 
     def test_the_scale_reads_in_grey_and_inverted_is_darker_than_all_of_it(self):
         colors = numpy.array([*rendering.ratio_colors(numpy.linspace(0, 1, 50))[:, :3], rendering.inverted_color])
@@ -190,7 +203,8 @@ class Stills(ResultsTest):
         self.assertLess(numpy.count_nonzero((plain != moved).any(axis=2)), 10)
         self.assertGreater(numpy.count_nonzero((plain != [0, 0, 255]).any(axis=2)), 100)
         hidden = self.shot([*bodies.bones([bone], 0.02), bodies.skin(self.write("limb_bend").tets("lbs", 0))])
-        self.assertTrue((hidden[still[1] // 2, still[0] // 2] > 60).any())  # the bone, which is black, lies within the tet
+        # The bone, which is black, lies within the tet.
+        self.assertTrue((hidden[still[1] // 2, still[0] // 2] > 60).any())
 
     def test_the_cut_keeps_the_tets_behind_it(self):
         data = rendering.read(self.write("limb_bend").tets("lbs", 0))

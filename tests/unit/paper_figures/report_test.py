@@ -1,5 +1,6 @@
-"""Reference: the definition. The page's sentences and tables agree with small records, it loads nothing, and it names what is missing.
-Records of another shape, in which each value takes every other kind, are refused with file, field, value and rule, and exit status 2."""
+"""Reference: the definition. The page's sentences and tables agree with small records, it loads nothing, and it names
+what is missing. Records of another shape, in which each value takes every other kind, are refused with file, field,
+value and rule, and exit status 2."""
 import base64
 import html.parser
 import io
@@ -101,21 +102,26 @@ class Report(ReportTest):
     def test_verdicts_are_counted_and_open_to_their_runs(self):
         synthetic_records.write_claims(self.results)
         text = self.page()
-        self.assertIn("There are 5 claims: 1 holds, 1 fails, 1 is inconsistent in print, 1 is inconclusive, 1 cannot be tested.",
+        self.assertIn("There are 5 claims: 1 holds, 1 fails, 1 is inconsistent in print, 1 is inconclusive, "
+                      "1 cannot be tested.",
                       words_of(text))
         judged = [("C02a", "fails"), ("C10a", "holds"), ("C13", "inconsistent in print"), ("C14", "inconclusive"),
                   ("C16", "cannot be tested")]
-        table = re.findall(r'<td class="name"><a href="#(\w+)".*?<span class="chip \w+">.*?</span> ([\w ]+)</span>', text)
+        table = re.findall(r'<td class="name"><a href="#(\w+)".*?<span class="chip \w+">.*?</span> ([\w ]+)</span>',
+                           text)
         self.assertEqual(sorted(table), judged)  # by topic
-        lines = re.findall(r'<details class="claim" id="(\w+)"><summary>.*?<span class="mark \w+">.*?</span> ([\w ]+)</span>', text)
+        lines = re.findall(r'<details class="claim" id="(\w+)"><summary>.*?<span class="mark \w+">.*?</span> ([\w '
+                           r']+)</span>', text)
         self.assertEqual(lines, judged)
         self.assertIn('<td class="measured">107 to 233 frames/s<span class="under">asked: 30 or more</span></td>', text)
         self.assertIn('<a href="volume/limb_twist/">volume/limb_twist</a>', text)
         self.assertIn("<li>1 of 3 cases hold, share 0.333 [0.01, 0.91]</li>", text)
         self.assertIn("<li>frames per second: 107 to 233 1/s, threshold 30 or more</li>", text)
         self.assertNotIn("<p></p>", text)
-        self.assertIn('<th scope="row">human, clip 01_03</th><td>0.4</td><td>0.1 to 0.4</td><td>0.95 or more</td><td>\u2718 no</td>', text)
-        row = '<th scope="row">LBS (ratio)</th><td>negative control</td><td>0 of 1 case, share 0</td><td>0.01</td><td>yes</td>'
+        self.assertIn('<th scope="row">human, clip 01_03</th><td>0.4</td><td>0.1 to 0.4</td><td>0.95 or '
+                      'more</td><td>\u2718 no</td>', text)
+        row = ('<th scope="row">LBS (ratio)</th><td>negative control</td><td>0 of 1 case, '
+               'share 0</td><td>0.01</td><td>yes</td>')
         self.assertIn(row, text)
         self.assertIn("no record of the control DQS", text)
         self.assertIn("<code>", markup.inline("`x`"))
@@ -135,8 +141,9 @@ class Report(ReportTest):
             ["method", "takes", "0.1 ms", "1 ms", "10 ms"],
             ["quasi-Newton", "material, springs, initial guess", "", "32 [29, 38] a\u2020", "19 [17, 23] a\u2020"],
             ["LBS", "nothing", "100 [90, 120] b", "100 [90, 120] i", "100 [90, 120] i"]])
-        self.assertIn("0.5 to 1 ms per frame</b> in single precision and ordered (1000 to 2000 frames per second); plain loops in double "
-                      "precision take 4 to 8 ms (125 to 250 frames per second; Table 1 prints 65.8 to 90.5)", text)
+        self.assertIn("0.5 to 1 ms per frame</b> in single precision and ordered (1000 to 2000 frames per second); "
+                      "plain loops in double precision take 4 to 8 ms (125 to 250 frames per second; Table 1 prints "
+                      "65.8 to 90.5)", text)
 
     def test_the_nearest_method_has_a_line_for_each_time(self):
         synthetic_records.write_work_precision(self.results)
@@ -148,7 +155,8 @@ class Report(ReportTest):
     def test_the_axis_has_the_cases_the_threshold_and_the_controls(self):
         synthetic_records.write_claims(self.results)
         claims = {claim["id"]: claim for claim in self.found().claims}
-        drawn = axis.drawn(claims["C02a"] | {"controls": [claims["C02a"] | {"name": "LBS", "role": "negative_control"}]})
+        drawn = axis.drawn(claims["C02a"]
+                           | {"controls": [claims["C02a"] | {"name": "LBS", "role": "negative_control"}]})
         parts = '<circle class="holds"', '<circle class="fails"', '<rect class="threshold"', '<path class="control"'
         self.assertEqual([drawn.count(part) for part in parts], [1, 2, 1, 1])
         self.assertRegex(drawn, 'aria-label="[^"]*; threshold: 0.95 or more; control LBS, negative control: 0.4"')
@@ -203,7 +211,8 @@ class Report(ReportTest):
         self.assertEqual(origin.costs_sentence(self.found()), "These records took 3 min of processor time (1 study).")
         # an earlier version recorded no wall time
         self.assertIn("<td>30</td><td>180</td><td>\u2013</td>", origin.costs_section(self.found()))
-        (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s,wall_s\na,10,60,70\nb,20,120,125\n")
+        (self.results / "volume" / "costs.csv").write_text("run,expected_cpu_s,cpu_s,wall_s\na,10,60,70\n"
+                                                           "b,20,120,125\n")
         (self.results / "volume" / "plan.json").write_text(json.dumps({"extent": "quick", "runs": [], "left_out": []}))
         self.assertIn("<td>quick</td><td>2</td><td>30</td><td>180</td><td>195</td>", origin.costs_section(self.found()))
 
@@ -214,7 +223,8 @@ class Report(ReportTest):
         record["scene"] = {"reference": {"name": "nh_p2"}, "fem": [fem]}
         (run / "run.json").write_text(json.dumps(record))
         _, missing = errors.section(self.found())
-        refused = "volume/limb_twist/frame_statistics.csv: does not exist: the run is of an earlier version and has to be made again"
+        refused = ("volume/limb_twist/frame_statistics.csv: does not exist: the run is of an earlier version and has "
+                   "to be made again")
         self.assertEqual(missing, [refused])
         _, text, said, _ = self.report()
         self.assertIn(f"missing: {refused}", said)
@@ -238,9 +248,11 @@ class Report(ReportTest):
         self.assertNotIn("on this machine", self.page())
         synthetic_records.write_repeated(self.results)
         text = self.page()
-        self.assertIn("1 cannot be tested. This machine does NOT repeat the record: 1 of 5 numbers differ.", words_of(text))
+        self.assertIn("1 cannot be tested. This machine does NOT repeat the record: 1 of 5 numbers differ.",
+                      words_of(text))
         self.assertIn('<th scope="col">on this machine</th>', text)
-        rows = dict(re.findall(r'<td class="name"><a href="#(\w+)">.*?<span class="chip \w+">.*?</span> ([\w ]+</span>.*?)</tr>', text))
+        rows = dict(re.findall(r'<td class="name"><a href="#(\w+)">.*?<span class="chip \w+">.*?</span> ([\w '
+                               r']+</span>.*?)</tr>', text))
         for name, verdict, here in (("C02a", "fails", "1 of 3 numbers differ"), ("C10a", "holds", "83.5 to 176 1/s"),
                                     ("C14", "inconclusive", "")):
             self.assertTrue(rows[name].startswith(f"{verdict}</span>"), rows[name])
@@ -261,21 +273,25 @@ class Report(ReportTest):
 
     def test_figures_are_inline_each_with_ids_of_its_own(self):
         picture = (root / "paper_figures" / "readme" / "same_pose.png").read_bytes()
-        self.write_svg("volume_over_angle", '<g class="values"><circle r="1"><title>PBS, "k" &lt; 1: 1, 2</title></circle></g>')
-        self.write_svg("volume_over_clip", f'<image xlink:href="data:image/png;base64,\n{base64.b64encode(picture).decode()}"/>')
+        self.write_svg("volume_over_angle", '<g class="values"><circle r="1"><title>PBS, "k" &lt; 1: 1, '
+                                            '2</title></circle></g>')
+        self.write_svg("volume_over_clip",
+                       f'<image xlink:href="data:image/png;base64,\n{base64.b64encode(picture).decode()}"/>')
         _, text, said, _ = self.report()
         shown = base64.b64decode(re.search(r'<image href="data:image/webp;base64,([^"]*)"/>', text)[1])
         one, other = (Image.open(io.BytesIO(of)).convert("RGBA").tobytes() for of in (picture, shown))
         self.assertTrue(one == other, "the picture has other pixels")
-        for part in ('<use href="#volume_over_angle-m1"/>', "url(#volume_over_clip-p1)", 'download="volume_over_angle.csv"',
-                     '<circle r="1" data-value="PBS, &quot;k&quot; &lt; 1: 1, 2"/>', "<b>Figure 12: volume_over_clip is shown. </b>"):
+        for part in ('<use href="#volume_over_angle-m1"/>', "url(#volume_over_clip-p1)",
+                     'download="volume_over_angle.csv"', '<circle r="1" data-value="PBS, &quot;k&quot; &lt; 1: 1, 2"/>',
+                     "<b>Figure 12: volume_over_clip is shown. </b>"):
             self.assertIn(part, text)
         self.assertIn("missing: figures volume_over_iterations, volume_by_region: does not exist yet", said)
 
     def test_a_caption_tells_the_numbers_of_the_figure_that_was_drawn(self):
         self.write_svg("volume_over_iterations")
         _, text, said, _ = self.report()
-        self.assertIn("missing: figure volume_over_iterations: figures/volume_over_iterations.caption.txt: does not exist", said)
+        self.assertIn("missing: figure volume_over_iterations: figures/volume_over_iterations.caption.txt: "
+                      "does not exist", said)
         self.assertNotIn('id="figure-volume_over_iterations"', text)
         (self.results / "figures" / "volume_over_iterations.caption.txt").write_text("24 leave \u22120.53 %.\n")
         text = self.page()
@@ -289,7 +305,8 @@ class Report(ReportTest):
         self.write_svg("volume_over_angle")
         (self.results / "volume" / "limb_bend" / "metrics.csv").unlink()
         _, text, said, _ = self.report()
-        self.assertIn("figures volume_over_angle, volume_over_iterations: volume/limb_bend/metrics.csv: does not exist", said)
+        self.assertIn("figures volume_over_angle, volume_over_iterations: volume/limb_bend/metrics.csv: does not exist",
+                      said)
         self.assertNotIn('id="figure-volume_over_angle"', text)
 
     def test_the_viewer_or_why_there_is_none(self):
@@ -322,7 +339,8 @@ class Report(ReportTest):
 
     def test_style_and_script_load_nothing(self):
         for file in (root / "paper_figures" / "report").glob("page.[cj]s*"):
-            self.assertIsNone(re.search(r"https?:|@import|url\(|fetch\(|XMLHttpRequest|import\s", file.read_text()), file)
+            self.assertIsNone(re.search(r"https?:|@import|url\(|fetch\(|XMLHttpRequest|import\s", file.read_text()),
+                              file)
 
     def test_texts_of_records_are_escaped(self):
         synthetic_records.write_claims(self.results, statement="a < b & <script>alert(1)</script>")
@@ -335,7 +353,8 @@ class Contrast(unittest.TestCase):
     """WCAG 2.1, 1.4.3: a contrast of text against its background of 4.5 or more."""
 
     def luminance(self, color):
-        linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in matplotlib.colors.to_rgb(color)]
+        linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
+                  for part in matplotlib.colors.to_rgb(color)]
         return sum(weight * channel for weight, channel in zip((0.2126, 0.7152, 0.0722), linear))
 
     def test_every_colour_of_text(self):
@@ -383,11 +402,13 @@ class ReportRecords(ReportTest):
         synthetic_records.write_claims(self.results)
         synthetic_records.write_repeated(self.results)
         run = {**json.loads((self.results / RUN).read_text()), "outcome": {"frames": 37, "frames_with_overlap": 0},
-               "scene": {"reference": {"name": "snh"}, "fem": [{"name": "snh", "model": "stable_neo_hookean", "element_order": 1}]},
+               "scene": {"reference": {"name": "snh"},
+                         "fem": [{"name": "snh", "model": "stable_neo_hookean", "element_order": 1}]},
                "work": {"settings": {}}}
         run["provenance"] |= {"libraries": {"Eigen": "3.4.0"}, "input_hashes": {"limb": "0123"}, "threads": 1}
         self.put(RUN, run)
-        self.put(PLAN, {"extent": "quick", "runs": [{"name": "limb_twist"}], "left_out": [{"scene": "walk", "reason": "no clip"}]})
+        self.put(PLAN, {"extent": "quick", "runs": [{"name": "limb_twist"}],
+                        "left_out": [{"scene": "walk", "reason": "no clip"}]})
 
     def put(self, name, record):
         (self.results / name).write_text(json.dumps(record))
@@ -415,7 +436,8 @@ class ReportRecords(ReportTest):
                 self.assertIn(f"pbskin: {self.results / name}: {words}", said)
 
     def test_no_value_of_any_kind_ends_in_a_traceback(self):
-        """PBS_LONG tries all values in every place. Otherwise each place has every third value, and neighbours have others."""
+        """PBS_LONG tries all values in every place. Otherwise each place has every third value, and neighbours have
+        others."""
         step = 1 if os.environ.get("PBS_LONG") else 3
         for name in (RUN, PLAN, CLAIMS, REPEATED):
             whole = self.record(name)

@@ -33,7 +33,8 @@ def listening():
 def tables_of(text):
     """The cells of each table by its caption, row by row."""
     def cells_of(row):
-        return [html.unescape(re.sub("<[^>]+>", "", cell)) for cell in re.findall(r"<t[hd]\b[^>]*>(.*?)</t[hd]>", row, re.DOTALL)]
+        return [html.unescape(re.sub("<[^>]+>", "", cell)) for cell in re.findall(r"<t[hd]\b[^>]*>(.*?)</t[hd]>", row,
+                                                                                  re.DOTALL)]
 
     return {html.unescape(caption): [cells_of(row) for row in re.findall(r"<tr\b.*?</tr>", body, re.DOTALL)]
             for caption, body in re.findall(r"<caption>(.*?)</caption>(.*?)</table>", text, re.DOTALL)}
@@ -60,7 +61,9 @@ class ResultsTest(unittest.TestCase):
         import checked_looks  # noqa: F401
         from drawing import style
         import make_all
-        with listening() as (said, complaints), unittest.mock.patch.object(style, "save", functools.partial(style.save, formats=formats)):
+        with listening() as (said, complaints), unittest.mock.patch.object(style, "save",
+                                                                           functools.partial(style.save,
+                                                                                             formats=formats)):
             self.assertEqual(make_all.main(self.results, name), status, complaints.getvalue())
         return said.getvalue(), complaints.getvalue()
 

@@ -1,4 +1,5 @@
-"""Recorded frames of a run in the layout of the study `frames`: two tets that grow, so that every number can be predicted."""
+"""Recorded frames of a run in the layout of the study `frames`: two tets that grow, so that every number can be
+predicted."""
 import json
 import pathlib
 
@@ -9,7 +10,8 @@ tets = [(0, 1, 2, 3), (1, 2, 3, 4)]
 labels = {"nh_p1": 1.0, "lbs": 1.1, "dqs": 1.2, "pbs": 1.05}  # the rate at which each grows
 vtu = pathlib.Path(__file__).with_name("synthetic.vtu").read_text()
 skin = pathlib.Path(__file__).with_name("synthetic.vtp").read_text()
-carriers = [(0, (0.25, 0.25, 0.25, 0.25)), (1, (-0.5, 0.5, 0.5, 0.5)), (0, (1.0, 0.0, 0.0, 0.0))]  # of each point of the skin
+# The tet and the weights of each point of the skin.
+carriers = [(0, (0.25, 0.25, 0.25, 0.25)), (1, (-0.5, 0.5, 0.5, 0.5)), (0, (1.0, 0.0, 0.0, 0.0))]
 
 
 def positions_of(label, frame):
@@ -34,7 +36,8 @@ def text(rows):
 
 
 def error_m(label, frame):
-    return max(sum((a - b) ** 2 for a, b in zip(p, q)) ** 0.5 for p, q in zip(positions_of(label, frame), positions_of("nh_p1", frame)))
+    return max(sum((a - b) ** 2 for a, b in zip(p, q)) ** 0.5
+               for p, q in zip(positions_of(label, frame), positions_of("nh_p1", frame)))
 
 
 def write_skin(folder):
@@ -50,7 +53,8 @@ def write_bones(folder, frames):
     columns = [f"{end}_{axis}_m" for end in ("head", "tail") for axis in "xyz"]
 
     def bones_at(z):
-        return [{"bone": bone, "parent": ""} | dict(zip(columns, (at, 0, z, at + 1, 0, z))) for bone, at in (("upper", 0), ("forearm", 1))]
+        return [{"bone": bone, "parent": ""} | dict(zip(columns, (at, 0, z, at + 1, 0, z)))
+                for bone, at in (("upper", 0), ("forearm", 1))]
 
     write_table(folder / "bones_rest.csv", bones_at(0))
     write_table(folder / "bones.csv",
@@ -58,7 +62,8 @@ def write_bones(folder, frames):
 
 
 def write_frames(results, scene="limb_twist", frames=4, body="limb", not_reached=()):
-    """DIR/frames/SCENE; volume_change_pct of LBS is smallest in frame 2. not_reached: (label, frame) whose solve did not converge."""
+    """DIR/frames/SCENE; volume_change_pct of LBS is smallest in frame 2. not_reached: (label, frame) whose solve did
+    not converge."""
     folder = results / "frames" / scene
     (folder / "frames").mkdir(parents=True)
     (folder / "run.json").write_text(json.dumps({"scene": {
@@ -68,10 +73,12 @@ def write_frames(results, scene="limb_twist", frames=4, body="limb", not_reached
     for frame in range(frames):
         for label in labels:
             ratios = ratios_of(label, frame)
-            rows.append({"scene": scene, "deformer": label, "variant": "default", "iterations": 24 if label == "pbs" else "",
-                         "frame": frame, "time_s": frame / 100, "volume_change_pct": -abs(frame - 2) or -9,
-                         "inverted_tets": sum(ratio <= 0 for ratio in ratios), "j_min": min(ratios), "error_joint_pct": 10 * frame,
-                         "error_linf_m": error_m(label, frame), "min_section_pct": 100 - frame, "angle_deg": 10 * frame,
+            rows.append({"scene": scene, "deformer": label, "variant": "default",
+                         "iterations": 24 if label == "pbs" else "", "frame": frame, "time_s": frame / 100,
+                         "volume_change_pct": -abs(frame - 2) or -9,
+                         "inverted_tets": sum(ratio <= 0 for ratio in ratios), "j_min": min(ratios),
+                         "error_joint_pct": 10 * frame, "error_linf_m": error_m(label, frame),
+                         "min_section_pct": 100 - frame, "angle_deg": 10 * frame,
                          "outcome": "not_converged" if (label, frame) in not_reached else "finished"})
             (folder / "frames" / f"{label}_{frame:06}.vtu").write_text(vtu.format(
                 rest=text(rest), ratios=text([ratios]), positions=text(positions_of(label, frame)), corners=text(tets)))

@@ -1,5 +1,5 @@
-"""Reference: the definition. The packed data represent the records within what the header states; errors name what is missing, and no page
-is made from incomplete data."""
+"""Reference: the definition. The packed data represent the records within what the header states; errors name what is
+missing, and no page is made from incomplete data."""
 import base64
 import csv
 import gzip
@@ -38,7 +38,8 @@ class Viewer(ResultsTest):
         run, block = self.unpacked()
         for deformer in run["deformers"]:
             count = len(run["frames"]) * run["vertices"] * 3
-            low, high = numpy.frombuffer(block, "u1", 2 * count, deformer["positions"]).reshape(2, len(run["frames"]), -1).astype(int)
+            low, high = numpy.frombuffer(block, "u1", 2 * count,
+                                         deformer["positions"]).reshape(2, len(run["frames"]), -1).astype(int)
             codes = numpy.cumsum(low + 256 * high, axis=0) % 65536
             packed = numpy.tile(run["low_m"], run["vertices"]) + run["step_m"] * codes
             for at, frame in enumerate(run["frames"]):
@@ -82,19 +83,21 @@ class Viewer(ResultsTest):
         file = self.results / "frames" / "human_jump" / "embedding.csv"
         head, *lines = file.read_text().splitlines()
         for share, triangles, points in (("0.5", 1, 0), ("0.75", 0, 1)):
-            file.write_text("\n".join([head + ",joint_share", lines[0] + ",0", lines[1] + "," + share, lines[2] + ",0"]) + "\n")
+            file.write_text("\n".join([head + ",joint_share", lines[0] + ",0", lines[1] + "," + share, lines[2] + ",0"])
+                            + "\n")
             surface = self.unpacked()[0]["surface"]
             self.assertEqual((surface["triangles"], surface["of_joints"], surface["points"]), (triangles, points, 3))
 
     def test_pbs_of_another_stiffness_says_which_and_which_its_zone(self):
         plain = {"k_stretch": 0.2}
-        options = {"pbs": plain, "pbs_jiggle": {"k_stretch": 1.0, "jiggle": {"k_stretch": 0.1}}, "pbs_no_zone": {"k_stretch": 1.0},
-                   "pbs_increment": {**plain, "lbs_entry": "increment"}, "nh_p1": {"poisson": 0.45}}
+        options = {"pbs": plain, "pbs_jiggle": {"k_stretch": 1.0, "jiggle": {"k_stretch": 0.1}},
+                   "pbs_no_zone": {"k_stretch": 1.0}, "pbs_increment": {**plain, "lbs_entry": "increment"},
+                   "nh_p1": {"poisson": 0.45}}
         runs = [{"label": label, "options": set_to} for label, set_to in options.items()] + [{"label": "lbs"}]
         recorded = types.SimpleNamespace(run=types.SimpleNamespace(record={"scene": {"runs": runs}}))
         self.assertEqual([viewer_data.title_of(recorded, label) for label in ("lbs", *options)],
-                         ["LBS", "PBS", "PBS, k_stretch 1, zone 0.1", "PBS, k_stretch 1, no zone", "PBS without LBS as initial guess",
-                          "neo-Hookean FEM, linear elements"])
+                         ["LBS", "PBS", "PBS, k_stretch 1, zone 0.1", "PBS, k_stretch 1, no zone",
+                          "PBS without LBS as initial guess", "neo-Hookean FEM, linear elements"])
 
     def test_a_surface_and_what_carries_it_belong_together(self):
         synthetic_frames.write_frames(self.results, "human_jump", body="human")
@@ -112,7 +115,8 @@ class Viewer(ResultsTest):
         lbs = next(deformer for deformer in run["deformers"] if deformer["label"] == "lbs")
         self.assertEqual(lbs["figures"]["volume_change_pct"], [-2.0, -9.0])
         self.assertEqual(lbs["figures"]["inverted_tets"], [0.0, 1.0])
-        self.assertEqual([deformer["title"] for deformer in run["deformers"]], ["LBS", "DQS", "PBS", "neo-Hookean FEM, linear elements"])
+        self.assertEqual([deformer["title"] for deformer in run["deformers"]],
+                         ["LBS", "DQS", "PBS", "neo-Hookean FEM, linear elements"])
         self.assertEqual([deformer["colour"] for deformer in run["deformers"]],
                          [looks.of(name).color for name in ("lbs", "dqs", "pbs", "nh_p1")])
 
@@ -134,7 +138,8 @@ class Viewer(ResultsTest):
         synthetic_frames.write_frames(self.results, not_reached=[("nh_p1", 2), ("nh_p1", 3), ("pbs", 0)])
         runs = [self.pack(every)[0]["runs"][0] for every in (1, 2)]
         found = [{deformer["label"]: deformer["not_reached"] for deformer in run["deformers"]} for run in runs]
-        self.assertEqual(found, [{"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [2, 3]}, {"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [1]}])
+        self.assertEqual(found, [{"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [2, 3]},
+                                 {"lbs": [], "dqs": [], "pbs": [0], "nh_p1": [1]}])
 
     def test_a_frame_without_a_solution_is_one_that_was_not_reached_and_shows_the_last_state(self):
         file = self.run / "metrics.csv"
@@ -147,7 +152,8 @@ class Viewer(ResultsTest):
         self.assertEqual((run["frames"], reference["not_reached"]), ([0, 1, 2, 3], [2]))
         self.assertIsNone(reference["figures"]["volume_change_pct"][2])
         low, high = numpy.frombuffer(block, "u1", 2 * 4 * 15, reference["positions"]).reshape(2, 4, 15)
-        self.assertEqual((low[2].any(), high[2].any(), low[3].any()), (False, False, True))  # differences to the frame before
+        # Differences to the frame before.
+        self.assertEqual((low[2].any(), high[2].any(), low[3].any()), (False, False, True))
 
     def test_stills_say_under_a_pose_that_it_was_not_reached(self):
         row = {"inverted_tets": "1", "min_section_pct": "40", "volume_change_pct": "-2"}
@@ -172,10 +178,12 @@ class Viewer(ResultsTest):
         for number, (label, title) in enumerate((("pbs", "PBS"), ("nh_p1", looks.of("nh_p1").name))):
             self.break_down(label)
             run, _ = self.unpacked()
-            self.assertEqual([deformer["label"] for deformer in run["deformers"]], ["lbs", "dqs", *(["nh_p1"] if number == 0 else [])])
+            self.assertEqual([deformer["label"] for deformer in run["deformers"]],
+                             ["lbs", "dqs", *(["nh_p1"] if number == 0 else [])])
             self.assertIn({"title": title, "frame": 1}, run["left_out"])
             page = viewer_html.fragment(self.results)
-            words = f'<p class="missing">limb, twist: {title} is not shown, for a position in frame 1 is not finite.</p>'
+            words = (f'<p class="missing">limb, twist: {title} is not shown, for a position in frame 1 is not '
+                     'finite.</p>')
             self.assertIn(words, page.split("<script", 1)[0])
         for label in ("lbs", "dqs"):
             self.break_down(label)
@@ -191,13 +199,15 @@ class Viewer(ResultsTest):
         self.assertEqual(viewer_data.contact_codes([(None,) * 4 + (depths,)], 2000).tolist(), [[0, 1, 2, 4, 42, 255]])
         older = viewer_data.scales_of({"lbs": [(None,) * 5]}, positions, "", rest)
         self.assertEqual((older["difference_mm"], older["deepest_mm"]), (1, 1))
-        self.assertEqual([viewer_data.rounded_up(value) for value in (0, 1, 1.01, 3, 60, 0.02)], [1, 1, 2, 5, 100, 0.02])
+        self.assertEqual([viewer_data.rounded_up(value) for value in (0, 1, 1.01, 3, 60, 0.02)],
+                         [1, 1, 2, 5, 100, 0.02])
 
     def test_panels_of_a_claim_are_those_on_record(self):
         figures = {column: [0.0, 1.0] for column in viewer_data.figures}
         run = {"name": "human_walk", "frames": [0, 1], "deformers": [{"label": label, "figures": figures}
                                                                       for label in ("lbs", "pbs_jiggle", "nh_p1")]}
-        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_html.poses_of([run])], [("C09a", "lbs,pbs_jiggle,nh_p1")])
+        self.assertEqual([(pose["claim"], pose["panels"]) for pose in viewer_html.poses_of([run])],
+                         [("C09a", "lbs,pbs_jiggle,nh_p1")])
         run["deformers"].append({"label": "pbs_no_zone", "figures": figures})
         self.assertEqual(viewer_html.poses_of([run])[0]["panels"], "lbs,pbs_no_zone,pbs_jiggle,nh_p1")
 

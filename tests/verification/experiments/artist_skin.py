@@ -1,6 +1,6 @@
-"""The artist's surface of a rigged model in every frame. Reference: the file format's own skinning formula, computed from the bytes of the
-file by skin_formula.py and fbx_formula.py. The tolerance of 1e-6 of the model's size covers the single precision in which the files store
-their numbers."""
+"""The artist's surface of a rigged model in every frame. Reference: the file format's own skinning formula, computed
+from the bytes of the file by skin_formula.py and fbx_formula.py. The tolerance of 1e-6 of the model's size covers the
+single precision in which the files store their numbers."""
 import glob
 import os
 import pathlib
@@ -19,10 +19,12 @@ from written_frames import points_of
 SCENE = pathlib.Path(__file__).with_name("artist_skin.toml").read_text()
 FRAMES = 5
 INSTALLED = "/usr/share/assimp/models"
-SIMPLE_SKIN, FBX_SKIN = f"{INSTALLED}/glTF2/simple_skin/simple_skin.gltf", f"{INSTALLED}/FBX/animation_with_skeleton.fbx"
+SIMPLE_SKIN = f"{INSTALLED}/glTF2/simple_skin/simple_skin.gltf"
+FBX_SKIN = f"{INSTALLED}/FBX/animation_with_skeleton.fbx"
 FBX_THREE_ANGLES = f"{INSTALLED}/FBX/huesitos.fbx"
 HUMAN, CLIP = f"{INSTALLED}/Collada/human.zae", f"{INSTALLED}/BVH/01_01.bvh"
-SHIFTS = [numpy.array([x, y, z]) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)]  # to the neighbours in a grid
+# These lead to the neighbours in a grid.
+SHIFTS = [numpy.array([x, y, z]) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)]
 
 
 def nearest(points, others):
@@ -66,7 +68,8 @@ class ArtistSkin(SkinTest):
         for variant, options in rig_files.VARIANTS.items():
             if options.get("animations", ["Bend"]):
                 with self.subTest(variant):
-                    self.compare(rig_files.write(variant, self.path("rig.glb")))  # the cache has one mesh for those with the same surface
+                    # The cache has one mesh for those with the same surface.
+                    self.compare(rig_files.write(variant, self.path("rig.glb")))
 
     def test_the_second_animation(self):
         self.compare(rig_files.write("two_animations", self.path("rig.glb")), "Twist")
@@ -80,7 +83,8 @@ class ArtistSkin(SkinTest):
         taken = nearest(formula[0], self.artist(0))
         self.assertEqual(len(set(taken)), len(formula[0]))
         for frame, points in enumerate(formula):
-            self.assertLess(numpy.linalg.norm(self.artist(frame) - points[taken], axis=1).max(), 1e-6 * size, f"frame {frame}")
+            self.assertLess(numpy.linalg.norm(self.artist(frame) - points[taken], axis=1).max(), 1e-6 * size,
+                            f"frame {frame}")
 
     @unittest.skipUnless(os.path.exists(FBX_THREE_ANGLES), "assimp-testmodels is not installed")
     def test_fbx_at_and_between_keys(self):
@@ -98,10 +102,12 @@ class ArtistSkin(SkinTest):
 
 
 def collada_points(path):
-    """The positions of all geometries of a .zae whose nodes have identity transforms and whose unit is the metre, #P x 3."""
+    """The positions of all geometries of a .zae whose nodes have identity transforms and whose unit is the metre, #P x
+    3."""
     space = "{http://www.collada.org/2005/11/COLLADASchema}"
     with zipfile.ZipFile(path) as archive:
-        root = xml.etree.ElementTree.fromstring(archive.read(next(name for name in archive.namelist() if name.endswith(".dae"))))
+        root = xml.etree.ElementTree.fromstring(archive.read(next(name for name in archive.namelist()
+                                                                  if name.endswith(".dae"))))
     identity = numpy.eye(4).ravel().tolist()
     assert all([float(x) for x in matrix.text.split()] == identity for matrix in root.iter(f"{space}matrix"))
     assert float(root.find(f"{space}asset/{space}unit").get("meter")) == 1.0
@@ -115,11 +121,12 @@ def collada_points(path):
 
 @unittest.skipUnless(os.path.exists(HUMAN), "assimp-testmodels is not installed")
 class Human(program.ProgramTest):
-    """MakeHuman's body as its authors export it: a surface without joints, which takes the skeleton of the body `human`."""
+    """MakeHuman's body as its authors export it: a surface without joints, which takes the skeleton of the body
+    `human`."""
 
     def test_the_surface_at_rest_is_that_of_the_file_and_the_clip_moves_it(self):
-        self.succeeds("try", HUMAN, "--skeleton", "human", "--animation", CLIP, "-o", self.path("out"), "--no-reference", "--frames", "3",
-                      "--vertices", "600", "--paraview")
+        self.succeeds("try", HUMAN, "--skeleton", "human", "--animation", CLIP, "-o", self.path("out"),
+                      "--no-reference", "--frames", "3", "--vertices", "600", "--paraview")
         expected = collada_points(HUMAN)
         found = points_of(self.path("out", "surface_rest.vtp"))
         tolerance = 1e-6 * numpy.linalg.norm(numpy.ptp(expected, axis=0))

@@ -1,6 +1,7 @@
-"""`pbskin measure MODEL`: the volume inside the artist's surface along the model's own animation. Reference: the file format's skinning
-formula, computed from the bytes of the file by skin_formula.py and fbx_formula.py, and VTK's vtkMassProperties. Tolerance: points differ by
-up to 1e-6 of the model's size, which changes the volume by up to this times the surface's area."""
+"""`pbskin measure MODEL`: the volume inside the artist's surface along the model's own animation. Reference: the file
+format's skinning formula, computed from the bytes of the file by skin_formula.py and fbx_formula.py, and VTK's
+vtkMassProperties. Tolerance: points differ by up to 1e-6 of the model's size, which changes the volume by up to this
+times the surface's area."""
 import os
 import unittest
 
@@ -15,7 +16,8 @@ import written_frames
 
 FRAMES = 5
 INSTALLED = "/usr/share/assimp/models"
-# With a number of frames that has each at a key: between the keys of three angles assimp turns the joints in another way than the format.
+# With a number of frames that has each at a key: between the keys of three angles assimp turns the joints in another
+# way than the format.
 FBX_MODELS = {f"{INSTALLED}/FBX/animation_with_skeleton.fbx": 5, f"{INSTALLED}/FBX/huesitos.fbx": 40}
 
 
@@ -45,8 +47,8 @@ def gltf_faces(model):
 
 
 def fbx_faces(model):
-    """The polygons of all geometries, cut from their first corners, in the order of fbx_formula.Model.points. The last corner of each is
-    stored as its complement."""
+    """The polygons of all geometries, cut from their first corners, in the order of fbx_formula.Model.points. The last
+    corner of each is stored as its complement."""
     faces, first = [], 0
     for record in model.objects.values():
         if record.name != "Geometry" or not record.all("Vertices"):
@@ -73,7 +75,8 @@ class ArtistVolume(program.ProgramTest):
             volume_m3, area_m2 = volume_and_area(points, faces)
             tolerance_m3 = 1e-6 * numpy.linalg.norm(numpy.ptp(points, axis=0)) * area_m2
             self.assertAlmostEqual(float(row["volume_m3"]), volume_m3, delta=tolerance_m3)
-            self.assertAlmostEqual(float(row["volume_change_pct"]), 100 * (volume_m3 / rest_m3 - 1), delta=200 * tolerance_m3 / rest_m3)
+            self.assertAlmostEqual(float(row["volume_change_pct"]), 100 * (volume_m3 / rest_m3 - 1),
+                                   delta=200 * tolerance_m3 / rest_m3)
         return [float(row["volume_change_pct"]) for row in rows]
 
     def compare_gltf(self, file, animation=None):
@@ -99,7 +102,8 @@ class ArtistVolume(program.ProgramTest):
                 begin, _ = model.span_s()
                 metres = model.metres_per_unit
                 rest = metres * model.points(None, begin)
-                self.compare(file, lambda time_s: metres * model.points(None, begin + time_s), rest, fbx_faces(model), frames=frames)
+                self.compare(file, lambda time_s: metres * model.points(None, begin + time_s), rest, fbx_faces(model),
+                             frames=frames)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
-"""`pbskin try --bake`: the exported file is moved here by the rules of glTF 2.0 (morph targets, then the skin), with numpy alone, and must
-be where the program states. Tolerance: numbers in the file are in single precision. A point is the sum of a rest position and up to sixteen
-targets, and three joints below each other move it. Each is in error by a few times 2^-24 of the body's size; 1e-6 is sixteen times 2^-24.
-"""
+"""`pbskin try --bake`: the exported file is moved here by the rules of glTF 2.0 (morph targets, then the skin), with
+numpy alone, and must be where the program states. Tolerance: numbers in the file are in single precision. A point is
+the sum of a rest position and up to sixteen targets, and three joints below each other move it. Each is in error by a
+few times 2^-24 of the body's size; 1e-6 is sixteen times 2^-24. """
 import csv
 import glob
 import os
@@ -102,7 +102,8 @@ class BakedCorrectivesTest(program.ProgramTest):
 
     def test_a_trial_without_it_removes_what_an_earlier_one_has_learned(self):
         """And a trial without --paraview leaves of the correctives what is of use."""
-        files = lambda: sorted(os.path.basename(file) for file in glob.glob(self.path("again", "frames", "correctives*")))
+        files = lambda: sorted(os.path.basename(file)
+                               for file in glob.glob(self.path("again", "frames", "correctives*")))
         self.tried("again", "--bake")
         self.assertEqual(files(), ["correctives.glb", "correctives.toml"])
         self.tried("again", "--no-reference")

@@ -1,20 +1,22 @@
-"""Frames of a run compared with those that other code computes, on a tet mesh and skeleton that are not from the project.
+"""Frames of a run compared with those that other code computes, on a tet mesh and skeleton that are not from the
+project.
 
-RecomputedFrames: metrics.csv compared with volumes and inverted tets recomputed from the written frames by VTK's reader and numpy.
-Reference: the definitions of the metrics. Tolerance: the contract's 1e-6 percentage points.
+RecomputedFrames: metrics.csv compared with volumes and inverted tets recomputed from the written frames by VTK's reader
+and numpy. Reference: the definitions of the metrics. Tolerance: the contract's 1e-6 percentage points.
 
-PlainIterations: order `plain` in double precision compared with position based dynamics written a second time, in numpy, from the published
-formulas. Reference: M. Mueller et al., Position based dynamics, VRIPHYS 2006 (distance constraint, Eq. 8-11; volume of a tet; corrections
-dp_i = -w_i grad_i C / sum w |grad C|^2, times k) and the paper's Sec. 3.6 (the distance of a vertex from its point on the nearest bone), in
-Algorithm 1's order: all binds, all edges, all tets, 24 times. File order: vertices, edges sorted by their vertices, tets as in the file.
-Only the initial state is the program's: the LBS positions of the same frame. Tolerance: both compute in double precision. A vertex is moved
-by its bind, edges and tets, each a sum of at most `ROUNDINGS` rounded terms that are no larger than the body. The growth of a rounding in
-later projections is measured: initial positions that differ by 1e-9 m.
+PlainIterations: order `plain` in double precision compared with position based dynamics written a second time, in
+numpy, from the published formulas. Reference: M. Mueller et al., Position based dynamics, VRIPHYS 2006 (distance
+constraint, Eq. 8-11; volume of a tet; corrections dp_i = -w_i grad_i C / sum w |grad C|^2, times k) and the paper's
+Sec. 3.6 (the distance of a vertex from its point on the nearest bone), in Algorithm 1's order: all binds, all edges,
+all tets, 24 times. File order: vertices, edges sorted by their vertices, tets as in the file. Only the initial state is
+the program's: the LBS positions of the same frame. Tolerance: both compute in double precision. A vertex is moved by
+its bind, edges and tets, each a sum of at most `ROUNDINGS` rounded terms that are no larger than the body. The growth
+of a rounding in later projections is measured: initial positions that differ by 1e-9 m.
 
-ReferenceErrorBar: the reference's error bar compared with a real error. Reference: a better solution of the same problem, order 2 on
-refined tets, from another run of the program; distances are recomputed with numpy from the written frames. A bar must cover the distance of
-the reference to it, and be no larger than the largest difference of the compared solutions times the largest factor that the method can
-apply."""
+ReferenceErrorBar: the reference's error bar compared with a real error. Reference: a better solution of the same
+problem, order 2 on refined tets, from another run of the program; distances are recomputed with numpy from the written
+frames. A bar must cover the distance of the reference to it, and be no larger than the largest difference of the
+compared solutions times the largest factor that the method can apply."""
 import itertools
 import unittest
 
@@ -30,8 +32,9 @@ TOLERANCE_PCT = 1e-6
 
 
 def ratio_rounding(grid, rest):
-    """The rounding error of a volume over that at rest, on both sides. Six volumes are a sum of products of three edges, whose magnitudes
-    add up to at most 3 sqrt(3) longest edges cubed; a product goes through ten roundings, and the quotient is one more."""
+    """The rounding error of a volume over that at rest, on both sides. Six volumes are a sum of products of three
+    edges, whose magnitudes add up to at most 3 sqrt(3) longest edges cubed; a product goes through ten roundings, and
+    the quotient is one more."""
     least = signed_volumes(rest).min()
 
     def of_volume(body):
@@ -93,7 +96,8 @@ class RecomputedFrames(foreign_arm.ArmTest):
 ITERATIONS, ANGLE_DEG = 24, 120.0
 K_STRETCH, K_VOLUME, K_BIND = 0.2, 1.0, 1.0
 ROUNDINGS = 60  # a volume, its four gradients and their squares, the quotient and the correction
-SCENE = foreign_arm.SCENE.replace("frames = 5", "frames = 2").replace('use = ["lbs", "dqs", "pbs"]', 'use = ["lbs", "pbs"]')
+SCENE = foreign_arm.SCENE.replace("frames = 5", "frames = 2").replace('use = ["lbs", "dqs", "pbs"]',
+                                                                      'use = ["lbs", "pbs"]')
 SHOULDER, ELBOW, HAND = (numpy.array([x, 0.0, 0.0]) for x in (0.0, 0.5, 1.0))
 
 
@@ -115,7 +119,8 @@ class Body:
         self.lengths = [numpy.linalg.norm(rest[i] - rest[j]) for i, j in self.edges]
         self.volumes = [volume(rest[list(tet)]) for tet in tets]
         angle = numpy.radians(ANGLE_DEG)
-        turn = numpy.array([[numpy.cos(angle), -numpy.sin(angle), 0.0], [numpy.sin(angle), numpy.cos(angle), 0.0], [0.0, 0.0, 1.0]])
+        turn = numpy.array([[numpy.cos(angle), -numpy.sin(angle), 0.0], [numpy.sin(angle), numpy.cos(angle), 0.0],
+                            [0.0, 0.0, 1.0]])
         self.distances, self.bind_points = [], []
         for point in rest:
             on_bones = nearest_on_bone(point, SHOULDER, ELBOW), nearest_on_bone(point, ELBOW, HAND)
@@ -141,7 +146,8 @@ class Body:
         for t in tets:
             corners = list(self.tets[t])
             a, b, c, d = p[corners]
-            gradients = numpy.array([numpy.zeros(3), numpy.cross(c - a, d - a), numpy.cross(d - a, b - a), numpy.cross(b - a, c - a)]) / 6.0
+            gradients = numpy.array([numpy.zeros(3), numpy.cross(c - a, d - a), numpy.cross(d - a, b - a),
+                                     numpy.cross(b - a, c - a)]) / 6.0
             gradients[0] = -gradients.sum(axis=0)
             p[corners] -= K_VOLUME * (volume(p[corners]) - self.volumes[t]) / (gradients ** 2).sum() * gradients
 
@@ -194,7 +200,8 @@ class PlainIterations(foreign_arm.ArmTest):
         self.assertGreater(numpy.abs(expected - self.start).max(), 1e-2)
         self.assertLess(numpy.abs(self.found - expected).max(), tolerance_m)
         # Another order of the tets is not within it.
-        self.assertGreater(numpy.abs(self.found - self.body.iterated(self.start, last_tet_first=True)).max(), 1e3 * tolerance_m)
+        self.assertGreater(numpy.abs(self.found - self.body.iterated(self.start, last_tet_first=True)).max(),
+                           1e3 * tolerance_m)
 
 
 SMALL_ANGLE = """
@@ -224,7 +231,8 @@ class ReferenceErrorBar(foreign_arm.ArmTest):
 
     def run_scene(self, name, *settings):
         arguments = ["motion.angle_deg=5", "motion.frames=2", *settings]
-        self.succeeds("run", self.scene, "-o", self.path(name), "--quiet", *[part for text in arguments for part in ("--set", text)])
+        self.succeeds("run", self.scene, "-o", self.path(name), "--quiet",
+                      *[part for text in arguments for part in ("--set", text)])
         rows = {row["deformer"]: row for row in self.rows(name, "metrics.csv") if row["frame"] == "1"}
         return rows, self.json(name, "run.json")
 
@@ -258,7 +266,8 @@ class ReferenceErrorBar(foreign_arm.ArmTest):
                 bound = float(rows[deformer][column])
                 largest = max(distances(one, other)[column] for one, other in itertools.combinations(compared, 2))
                 self.assertGreater(bound, error, name + " " + column)
-                rounding = (len(mass) + 20) * numpy.finfo(float).eps  # of a sum of one sign and some twenty operations, on both sides
+                # The rounding of a sum of one sign and some twenty operations, on both sides.
+                rounding = (len(mass) + 20) * numpy.finfo(float).eps
                 self.assertLess(bound, (1.0 + rounding) * LARGEST_FACTOR * largest, name + " " + column)
                 self.assertEqual(bound, float(rows["lbs"][column]))  # a value of the frame, the same in every row
             self.assertEqual(rows[deformer]["error_below_reference_error"], "")
@@ -285,7 +294,8 @@ class ReferenceErrorBar(foreign_arm.ArmTest):
         apart = numpy.linalg.norm(lbs - reference, axis=1)
         rms = numpy.sqrt((weights * apart ** 2).sum() / weights.sum())
         one, other = normals(lbs), normals(reference)
-        turned = numpy.degrees(numpy.arctan2(numpy.linalg.norm(numpy.cross(one, other), axis=1), (one * other).sum(axis=1)))
+        turned = numpy.degrees(numpy.arctan2(numpy.linalg.norm(numpy.cross(one, other), axis=1),
+                                             (one * other).sum(axis=1)))
         to_mm = 1700.0 / size.max()
         for column, expected in (("skin_rms_mm", to_mm * rms), ("skin_largest_mm", to_mm * apart[weights > 0.0].max()),
                                  ("skin_rms_pct", 100.0 * rms / numpy.linalg.norm(size)),

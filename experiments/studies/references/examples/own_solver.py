@@ -4,8 +4,8 @@
     python3 own_solver.py kit limb_twist_60 smooth mine.vtu
     pbskin measure kit/bodies/limb.vtu mine.vtu --reference kit/limb_twist_60/smooth.vtu
 
-FOLDER is what `pbskin references export -o FOLDER` wrote; its README.md states the problem. The error must be the member's
-linear_distance_pct where no skin touches. This takes some ten seconds."""
+FOLDER is what `pbskin references export -o FOLDER` wrote; its README.md states the problem. The error must be the
+member's linear_distance_pct where no skin touches. This takes some ten seconds."""
 import os
 import pathlib
 import sys
@@ -43,7 +43,8 @@ K[:, first, second] = K[:, second, first] = young * rows[:, 2:]
 
 
 def targets(share):
-    """The held corners, moved by bones on their way to the pose (share 1): each turns about its head, relative to its parent."""
+    """The held corners, moved by bones on their way to the pose (share 1): each turns about its head, relative to its
+    parent."""
     moved = []
     for joint, transform in zip(joints, transforms):
         parent = names.index(joint["parent"]) if joint["parent"] else None
@@ -68,11 +69,13 @@ def energy(x, target):
 
 
 def newton_step(x, target, is_projected):
-    """The step, and the slope of the energy along it. The Hessian of each tet may be projected to be positive semi-definite."""
+    """The step, and the slope of the energy along it. The Hessian of each tet may be projected to be positive
+    semi-definite."""
     F = np.einsum("tai,taj->tij", x[tets], shape)
     inverse, log = np.linalg.inv(F), np.log(np.linalg.det(F))
     P = mu * F + (lam * log - mu)[:, None, None] * np.swapaxes(inverse, 1, 2)
-    H = np.einsum("t,tjk,tli->tijkl", mu - lam * log, inverse, inverse) + lam * np.einsum("tji,tlk->tijkl", inverse, inverse)
+    H = np.einsum("t,tjk,tli->tijkl", mu - lam * log, inverse,
+                  inverse) + lam * np.einsum("tji,tlk->tijkl", inverse, inverse)
     H = H.reshape(-1, 9, 9) + mu * np.eye(9)
     if is_projected:
         value, vector = np.linalg.eigh(H)
@@ -85,8 +88,10 @@ def newton_step(x, target, is_projected):
     dofs = [(3 * corners[:, :, None] + np.arange(3)).reshape(-1, 12) for _, corners in blocks]
     row = np.concatenate([np.repeat(of, 12, 1).ravel() for of in dofs])
     column = np.concatenate([np.tile(of, (1, 12)).ravel() for of in dofs])
-    matrix = sparse.csc_matrix((np.concatenate([block.ravel() for block, _ in blocks]), (row, column)), shape=(x.size, x.size))
-    step = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve(-gradient.ravel()).reshape(x.shape)
+    matrix = sparse.csc_matrix((np.concatenate([block.ravel() for block, _ in blocks]), (row, column)),
+                               shape=(x.size, x.size))
+    step = splu(matrix, permc_spec="MMD_AT_PLUS_A",
+                options={"SymmetricMode": True}).solve(-gradient.ravel()).reshape(x.shape)
     return step, (gradient * step).sum()
 
 
