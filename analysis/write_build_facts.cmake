@@ -1,10 +1,12 @@
 # cmake -DSOURCE=... -DOUTPUT=... -DVERSION=... -DBUILD_TYPE=... -DCOMPILER=... -DFLAGS=... -P write_build_facts.cmake
-# Writes the git revision and whether tracked files differ from it; "unknown" without git or if SOURCE is not the root of a checkout.
+# Writes the git revision and whether tracked files differ from it; "unknown" without git or if SOURCE is not the root
+# of a checkout.
 set(revision "unknown")
 set(changes "")
 find_program(GIT git)
 if(GIT)
-    execute_process(COMMAND ${GIT} -C ${SOURCE} rev-parse --show-prefix HEAD OUTPUT_VARIABLE answer ERROR_QUIET RESULT_VARIABLE failed)
+    execute_process(COMMAND ${GIT} -C ${SOURCE} rev-parse --show-prefix HEAD OUTPUT_VARIABLE answer ERROR_QUIET
+        RESULT_VARIABLE failed)
     if(NOT failed AND answer MATCHES "^\n([0-9a-f]+)\n$")
         set(revision ${CMAKE_MATCH_1})
         execute_process(COMMAND ${GIT} --no-optional-locks -C ${SOURCE} status --porcelain --untracked-files=no
@@ -17,7 +19,8 @@ else()
     set(dirty true)
 endif()
 
-string(REGEX REPLACE "[^ ]*/[^ ]*" "<path>" FLAGS "${FLAGS}")  # records name no folder of the machine that built the program
+# Records name no folder of the machine that built the program.
+string(REGEX REPLACE "[^ ]*/[^ ]*" "<path>" FLAGS "${FLAGS}")
 string(STRIP "${FLAGS}" FLAGS)
 string(REGEX REPLACE "([\"\\\\])" "\\\\\\1" FLAGS "${FLAGS}")
 set(text "#pragma once

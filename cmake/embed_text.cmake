@@ -1,6 +1,7 @@
-# embed_text(TARGET NAMESPACE FILE...): each text file becomes `NAMESPACE::<file_name_with_underscores>`, a const std::string declared in
-# <generated/NAMESPACE_texts.hpp>, so that the program needs no data folder. `NAMESPACE::by_name` finds a text by the name of its file
-# without the ending. A README.md and a cases.toml are named after their folder: `volume_README_md`, `volume_cases_toml`, "volume".
+# embed_text(TARGET NAMESPACE FILE...): each text file becomes `NAMESPACE::<file_name_with_underscores>`, a const
+# std::string declared in <generated/NAMESPACE_texts.hpp>, so that the program needs no data folder.
+# `NAMESPACE::by_name` finds a text by the name of its file without the ending. A README.md and a cases.toml are named
+# after their folder: `volume_README_md`, `volume_cases_toml`, "volume".
 function(embed_text target namespace)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/generated)
     set(declarations "#pragma once\n\n#include <map>\n#include <string>\n\nnamespace ${namespace} {\n")

@@ -1,5 +1,5 @@
-# `cmake --install`: the libraries for `find_package(pbs COMPONENTS ...)`, one install component each, and the program with its data.
-# All paths are relative to the prefix, so that an installation may be moved.
+# `cmake --install`: the libraries for `find_package(pbs COMPONENTS ...)`, one install component each, and the program
+# with its data. All paths are relative to the prefix, so that an installation may be moved.
 include(CMakePackageConfigHelpers)
 set(config_folder lib/cmake/pbs)
 
@@ -11,15 +11,18 @@ function(pbs_install_libraries component)
         set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
         install(TARGETS ${target} EXPORT pbs-${component} ARCHIVE DESTINATION lib COMPONENT ${component})
     endforeach()
-    install(EXPORT pbs-${component} FILE pbs-${component}-targets.cmake NAMESPACE pbs:: DESTINATION ${config_folder} COMPONENT ${component})
+    install(EXPORT pbs-${component} FILE pbs-${component}-targets.cmake NAMESPACE pbs:: DESTINATION ${config_folder}
+        COMPONENT ${component})
 endfunction()
 
 # pbs_install_headers(COMPONENT FOLDER...): installs headers by the same paths below include/ as in the sources.
 function(pbs_install_headers component)
     foreach(folder IN LISTS ARGN)
         file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
-        set(no_call_for_users  # headers internal to readers and meshers, to text, files and signals, to solvers, and to parts of bodies
-            "mesh_io_|meshing_|cgal_versions|source_file|text_words|content_format|guarded_reading|child_process|deferred_sigterm"
+        # Headers internal to readers and meshers, to text, files and signals, to solvers, and to parts of bodies.
+        set(no_call_for_users
+            "mesh_io_|meshing_|cgal_versions|source_file|text_words|content_format|guarded_reading|child_process"
+            deferred_sigterm
             "flesh/(local_shape|packed_|projective_|vbd|xpbd_)"
             "packed/(groups|lanes|parallel|vertex_order)"
             "solver/(algorithm_1|project_plain)"
@@ -43,7 +46,8 @@ if(PBS_WITH_ANALYSIS)
 endif()
 if(PBS_WITH_FEM)
     pbs_install_libraries(fem reference_fem_laws=fem_laws reference_fem=fem)
-    pbs_install_headers(fem reference_fem reference_fem/laws reference_fem/newton reference_fem/potentials reference_fem/dynamics)
+    pbs_install_headers(fem reference_fem reference_fem/laws reference_fem/newton reference_fem/potentials
+        reference_fem/dynamics)
 endif()
 
 get_target_property(mesh_links pbs_meshes LINK_LIBRARIES)
@@ -53,8 +57,8 @@ list(TRANSFORM vtk_components REPLACE "^VTK::" "")
 list(JOIN vtk_components " " vtk_components)
 configure_package_config_file(cmake/pbs-config.cmake.in pbs-config.cmake INSTALL_DESTINATION ${config_folder})
 write_basic_package_version_file(pbs-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/pbs-config.cmake ${PROJECT_BINARY_DIR}/pbs-config-version.cmake DESTINATION ${config_folder}
-    COMPONENT method)
+install(FILES ${PROJECT_BINARY_DIR}/pbs-config.cmake ${PROJECT_BINARY_DIR}/pbs-config-version.cmake
+    DESTINATION ${config_folder} COMPONENT method)
 
 if(TARGET pbskin)
     include(install_program)

@@ -1,5 +1,5 @@
-# The program, its modules and its data: bin/, lib/pbskin/ and share/pbskin/. A build has the same folders, so that the program finds them
-# relative to its own executable.
+# The program, its modules and its data: bin/, lib/pbskin/ and share/pbskin/. A build has the same folders, so that the
+# program finds them relative to its own executable.
 set(data_folder share/pbskin)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/${data_folder})
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/paper_figures ${PROJECT_BINARY_DIR}/${data_folder}/paper_figures SYMBOLIC)
@@ -18,9 +18,10 @@ install(TARGETS ${modules} LIBRARY DESTINATION lib/pbskin COMPONENT program)
 
 # The scripts that draw, with the viewer if it was built, but without the sources of the viewer.
 install(DIRECTORY paper_figures DESTINATION ${data_folder} COMPONENT program
-    PATTERN __pycache__ EXCLUDE PATTERN readme EXCLUDE PATTERN node_modules EXCLUDE PATTERN viewer/src EXCLUDE PATTERN viewer/*.json EXCLUDE
-    PATTERN viewer/*.mjs EXCLUDE PATTERN viewer/.npmrc EXCLUDE)
-install(DIRECTORY experiments/scenes DESTINATION ${data_folder} COMPONENT program FILES_MATCHING PATTERN *.toml PATTERN *.obj)
+    PATTERN __pycache__ EXCLUDE PATTERN readme EXCLUDE PATTERN node_modules EXCLUDE PATTERN viewer/src EXCLUDE
+    PATTERN viewer/*.json EXCLUDE PATTERN viewer/*.mjs EXCLUDE PATTERN viewer/.npmrc EXCLUDE)
+install(DIRECTORY experiments/scenes DESTINATION ${data_folder} COMPONENT program FILES_MATCHING PATTERN *.toml
+    PATTERN *.obj)
 install(DIRECTORY experiments/references DESTINATION ${data_folder} COMPONENT program)
 install(DIRECTORY experiments/records/full/ DESTINATION ${data_folder}/records COMPONENT program
     PATTERN claims.json EXCLUDE PATTERN report.html EXCLUDE)

@@ -1,13 +1,15 @@
-# The oldest and the newest version with which the project was tried stand in packages.txt, beside the Debian package that has the library.
+# The oldest and the newest version with which the project was tried stand in packages.txt, beside the Debian package
+# that has the library.
 
-# find_known(NAME [arguments of find_package]): finds a package that the build requires. One that is missing, or older than the oldest
-# version tried, ends the configuration with one sentence. One that is newer than the newest is named.
+# find_known(NAME [arguments of find_package]): finds a package that the build requires. One that is missing, or older
+# than the oldest version tried, ends the configuration with one sentence. One that is newer than the newest is named.
 macro(find_known name)
     find_package(${name} QUIET ${ARGN})
     require_known_version(${name} "${${name}_FOUND}" "${${name}_VERSION}")
 endmacro()
 
-# The same for a library without a CMake package: its header states the version in macros. MAJOR and MINOR are their names.
+# The same for a library without a CMake package: its header states the version in macros. MAJOR and MINOR are their
+# names.
 function(require_known_header name header major minor)
     foreach(macro IN LISTS major minor)
         file(STRINGS ${header} ${macro} REGEX "^#define ${macro} +[0-9]")

@@ -1,5 +1,5 @@
-# The Debian packages, `cmake --workflow --preset package`: pbskin (the program) and libpbs-dev (the libraries). Their dependencies follow
-# from the linked libraries.
+# The Debian packages, `cmake --workflow --preset package`: pbskin (the program) and libpbs-dev (the libraries). Their
+# dependencies follow from the linked libraries.
 set(CPACK_PACKAGE_NAME pbskin)
 set(CPACK_PACKAGE_VENDOR "The pbskin maintainers")
 set(CPACK_PACKAGE_CONTACT "The pbskin maintainers <pbskin@localhost>")
@@ -29,8 +29,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpbs-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
-    "libvtk9-dev, libassimp-dev, libminizip-dev, libcgal-dev, libpugixml-dev, libtomlplusplus-dev, nlohmann-json3-dev, libgsl-dev, \
-libfmt-dev, libxxhash-dev, libdeal.ii-dev, libsuitesparse-dev")
+    "libvtk9-dev, libassimp-dev, libminizip-dev, libcgal-dev, libpugixml-dev, libtomlplusplus-dev, nlohmann-json3-dev, \
+libgsl-dev, libfmt-dev, libxxhash-dev, libdeal.ii-dev, libsuitesparse-dev")
 
 # cpack refuses kernels that are built for the instructions of one machine.
 set(CPACK_PBS_NATIVE ${PBS_NATIVE})

@@ -11,8 +11,8 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release CACHE STRING "build type" FORCE)
 endif()
 
-# ccache caches objects with precompiled headers only with this sloppiness; `env` sets it for all users. The times of included files are not
-# ignored: ccache must not keep an object whose source changed while the compiler read it.
+# ccache caches objects with precompiled headers only with this sloppiness; `env` sets it for all users. The times of
+# included files are not ignored: ccache must not keep an object whose source changed while the compiler read it.
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
@@ -47,15 +47,18 @@ target_compile_features(pbs_settings INTERFACE cxx_std_20)
 target_compile_options(pbs_settings INTERFACE "$<INSTALL_INTERFACE:SHELL:-include pbs/geometry/installed_eigen.hpp>")
 target_link_libraries(pbs_settings INTERFACE Eigen3::Eigen)
 
-# calls_libraries(TARGET): its sources spend their time in libraries, so that -O3 costs more in the compiler than it saves at run time. The
-# level of a precompiled header is that of all its sources: GCC 12 ignores theirs. GCC takes Eigen's dynamic matrices for uninitialized.
+# calls_libraries(TARGET): its sources spend their time in libraries, so that -O3 costs more in the compiler than it
+# saves at run time. The level of a precompiled header is that of all its sources: GCC 12 ignores theirs. GCC takes
+# Eigen's dynamic matrices for uninitialized.
 function(calls_libraries target)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>
+        $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endfunction()
 
-# unity_build(TARGET [BATCH NUMBER] [ALONE SOURCE...]): compiles NUMBER sources at once, eight unless stated, so that their anonymous
-# namespaces are one. A source with a name that another one has too is compiled alone or has a namespace of its own. The presets dev and
-# package compile each source alone, which detects a missing include. GCC 12 warns of its own headers where it inlines more.
+# unity_build(TARGET [BATCH NUMBER] [ALONE SOURCE...]): compiles NUMBER sources at once, eight unless stated, so that
+# their anonymous namespaces are one. A source with a name that another one has too is compiled alone or has a namespace
+# of its own. The presets dev and package compile each source alone, which detects a missing include. GCC 12 warns of
+# its own headers where it inlines more.
 function(unity_build target)
     cmake_parse_arguments(PARSE_ARGV 1 unity "" "BATCH" "ALONE")
     if(NOT unity_BATCH)

@@ -1,4 +1,5 @@
-# Functions that ./reproduce and ./check share: packages, build, timeline. Bash sources this file in the repository root.
+# Functions that ./reproduce and ./check share: packages, build, timeline. Bash sources this file in the repository
+# root.
 # shellcheck shell=bash disable=SC2034,SC2015
 
 packages_file=cmake/packages.txt
@@ -27,9 +28,11 @@ parse_options() {
         case $1 in
             --no-install) install=no ;;
             -o) output=${2-} && [[ $output ]] && shift || refuse "-o: expected a folder" ;;
-            -j) jobs=${2-} && [[ $jobs =~ ^[1-9][0-9]*$ ]] && shift || refuse "-j = $jobs: expected a whole number of at least 1" ;;
+            -j) jobs=${2-} && [[ $jobs =~ ^[1-9][0-9]*$ ]] && shift ||
+                refuse "-j = $jobs: expected a whole number of at least 1" ;;
             -h | --help) usage && exit ;;
-            *) [[ $sizes == *" $1 "* ]] && size=$1 || refuse "$1: expected one of$sizes--no-install -o DIR -j N --help" ;;
+            *) [[ $sizes == *" $1 "* ]] && size=$1 ||
+                refuse "$1: expected one of$sizes--no-install -o DIR -j N --help" ;;
         esac
         shift
     done
@@ -71,7 +74,8 @@ install_packages() {
     [[ $install == yes ]] || refuse "--no-install was given; as root: $by_hand"
     if ((EUID != 0)); then
         command -v sudo >/dev/null || refuse "not root and no sudo; as root: $by_hand"
-        [[ -t 0 ]] || sudo -n true 2>/dev/null || refuse "sudo wants a password and there is no terminal; as root: $by_hand"
+        [[ -t 0 ]] || sudo -n true 2>/dev/null ||
+            refuse "sudo wants a password and there is no terminal; as root: $by_hand"
         apt=(sudo apt-get)
     fi
     logged "$output/packages.txt" "${apt[@]}" update -qq || refuse "apt-get update failed: $cause"
@@ -80,7 +84,8 @@ install_packages() {
         if apt-cache show "$package" &>/dev/null; then
             available+=("$package")
         elif grep -q "^$package " < <(packages_of run check); then
-            refuse "$package: apt does not know this package, which is required; $(this_system) does not have it, or \`apt-get update\`" \
+            refuse "$package: apt does not know this package, which is required;" \
+                "$(this_system) does not have it, or \`apt-get update\`" \
                 "did not reach its source (all of it: $output/packages.txt)"
         else
             say "$package: $(this_system) does not have it"
@@ -109,7 +114,8 @@ timed() {
     return "$status"
 }
 
-# logged FILE COMMAND...: what the command prints goes to the file. If it fails, `cause` is its first error and the name of the file.
+# logged FILE COMMAND...: what the command prints goes to the file. If it fails, `cause` is its first error and the name
+# of the file.
 logged() {
     local file=$1 status=0
     shift
@@ -119,8 +125,8 @@ logged() {
     return "$status"
 }
 
-# configured COMMAND..., built OPTION...: what they print goes to files. A failure ends the script with its first error. The next build
-# compiles files with a warning again, so that it has the warning too.
+# configured COMMAND..., built OPTION...: what they print goes to files. A failure ends the script with its first error.
+# The next build compiles files with a warning again, so that it has the warning too.
 configured() {
     timed configure logged "$output/configure.txt" "$@" || refuse "CMake could not configure the build: $cause"
     grep "is newer than" "$output/configure.txt" | sort -u || true
@@ -131,7 +137,8 @@ built() {
     sed -nE "s|^($PWD/[^:]+):[0-9:]* warning: .*|\1|p" "$output/build.txt" | sort -u | xargs -r -d '\n' touch
 }
 
-# The first error in what CMake, a compiler, apt or npm printed, on one line; without any, the last line. CMake breaks its sentences.
+# The first error in what CMake, a compiler, apt or npm printed, on one line; without any, the last line. CMake breaks
+# its sentences.
 first_error() {
     awk '/^CMake Error: ./ { sub(/^CMake Error: /, ""); error = $0; exit }
         /^CMake Error/ { of_cmake = 1; next }
@@ -146,16 +153,19 @@ first_error() {
 
 this_system() { (. /etc/os-release 2>/dev/null && echo "${PRETTY_NAME:-this system}"); }
 
-# Builds the report's viewer, bundled with three.js; npm fetches 50 MB once. Without the viewer, the report states how to get it.
+# Builds the report's viewer, bundled with three.js; npm fetches 50 MB once. Without the viewer, the report states how
+# to get it.
 build_viewer() {
-    local folder=paper_figures/viewer fetched=paper_figures/viewer/node_modules/.package-lock.json  # which npm writes last
+    # npm writes the fetched file last.
+    local folder=paper_figures/viewer fetched=paper_figures/viewer/node_modules/.package-lock.json
     if ! command -v npm >/dev/null; then
         echo "error: npm is not installed (any version is sufficient)"
         return 1
     fi
     if [[ ! $fetched -nt $folder/package-lock.json ]]; then
         [[ $install == yes ]] || { echo "error: --no-install was given; by hand: npm ci in $folder"; return 1; }
-        (cd "$folder" && npm ci --no-audit --no-fund --loglevel=error --fetch-retries=1 --fetch-timeout=30000) || return 1
+        (cd "$folder" &&
+            npm ci --no-audit --no-fund --loglevel=error --fetch-retries=1 --fetch-timeout=30000) || return 1
         touch "$fetched"
     fi
     (cd "$folder" && npm run build --silent)

@@ -19,7 +19,8 @@ find_program(PBS_SHELLCHECK NAMES shellcheck)
 if(PBS_SHELLCHECK)
     add_test(NAME architecture/shell_scripts
         COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/architecture/checkers_test.py Shellcheck)
-    set_tests_properties(architecture/shell_scripts PROPERTIES LABELS architecture TIMEOUT 60 ENVIRONMENT PBS_SHELLCHECK=${PBS_SHELLCHECK})
+    set_tests_properties(architecture/shell_scripts PROPERTIES LABELS architecture TIMEOUT 60
+        ENVIRONMENT PBS_SHELLCHECK=${PBS_SHELLCHECK})
 else()
     message(STATUS "shellcheck is not installed: its test is left out")
 endif()

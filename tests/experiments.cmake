@@ -14,8 +14,8 @@ if(NOT PBS_WITH_FEM)
     set(left_out ${with_the_module})
 endif()
 
-# A verdict changes with its records: the project's own claims with the values of the studies. A broken solver changes the values and
-# verdicts that it must change by theory, and no others.
+# A verdict changes with its records: the project's own claims with the values of the studies. A broken solver changes
+# the values and verdicts that it must change by theory, and no others.
 pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out} LIBRARIES experiments)
 set(kept_records PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")
 target_compile_definitions(test_claims_experiments PRIVATE ${claims_file} ${kept_records}
@@ -25,7 +25,8 @@ pbs_tests(unit experiments BLAS
     FILES experiments/deformers/fem/fem_module
     EXCEPT experiments/deformers/fem ${left_out}
     LIBRARIES experiments)
-pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies experiments/reproduce EXCEPT ${left_out} LIBRARIES experiments)
+pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies experiments/reproduce EXCEPT ${left_out}
+    LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments EXCEPT experiments/meshes LIBRARIES experiments)
 pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
 target_compile_definitions(test_regression_experiments PRIVATE ${kept_records})
@@ -35,17 +36,20 @@ pbs_tests(verification experiments BLAS FOLDERS experiments
         experiments/studies/stability/broken_fem_starts ${left_out}
     LIBRARIES experiments)
 if(PBS_WITH_FEM)
-    foreach(target claims_experiments unit_experiments unit_experiments_studies verification_experiments verification_experiments_fem)
+    foreach(target claims_experiments unit_experiments unit_experiments_studies verification_experiments
+        verification_experiments_fem)
         add_dependencies(test_${target} pbskin_fem pbskin_verification)
     endforeach()
 endif()
 
-# The program as users run it: exit status, messages, folders. The tests are in Python, so that they share no code with the program.
+# The program as users run it: exit status, messages, folders. The tests are in Python, so that they share no code with
+# the program.
 function(pbs_program_test kind name)
     add_test(NAME ${kind}/${name} COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/${kind}/${name}.py)
     # ctest starts the costliest tests first, so that no core is idle in the end: these are longer than most.
     set_tests_properties(${kind}/${name} PROPERTIES LABELS ${kind} TIMEOUT 900 COST 60
-        ENVIRONMENT "PBSKIN=$<TARGET_FILE:pbskin>;PBS_SOURCE=${PROJECT_SOURCE_DIR};PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/support")
+        ENVIRONMENT
+        "PBSKIN=$<TARGET_FILE:pbskin>;PBS_SOURCE=${PROJECT_SOURCE_DIR};PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/support")
 endfunction()
 pbs_program_test(robustness experiments/command_line)
 pbs_program_test(verification experiments/artist_skin)

@@ -1,8 +1,10 @@
 # Tests of the installation: by another project, and by the program outside of its source tree.
 function(pbs_packaging_test name)
     add_test(NAME packaging/${name} COMMAND ${PBS_TEST_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/packaging/${name}.py)
+    set(environment PBS_BUILD=${PROJECT_BINARY_DIR} PBS_SOURCE=${PROJECT_SOURCE_DIR} PBS_CMAKE=${CMAKE_COMMAND}
+        CXX=${CMAKE_CXX_COMPILER})
     set_tests_properties(packaging/${name} PROPERTIES LABELS packaging SKIP_RETURN_CODE 77 TIMEOUT 3600 COST 70
-        ENVIRONMENT "PBS_BUILD=${PROJECT_BINARY_DIR};PBS_SOURCE=${PROJECT_SOURCE_DIR};PBS_CMAKE=${CMAKE_COMMAND};CXX=${CMAKE_CXX_COMPILER}")
+        ENVIRONMENT "${environment}")
 endfunction()
 pbs_packaging_test(consumer)
 pbs_packaging_test(presets)
@@ -17,5 +19,6 @@ if(TARGET pbskin)
         pbs_packaging_test(readme_example)  # the example makes its mesh from a surface
     endif()
     pbs_packaging_test(debian)
-    set_property(TEST packaging/debian PROPERTY RUN_SERIAL ON)  # makes a whole build with CMAKE_BUILD_PARALLEL_LEVEL jobs
+    # It makes a whole build with CMAKE_BUILD_PARALLEL_LEVEL jobs.
+    set_property(TEST packaging/debian PROPERTY RUN_SERIAL ON)
 endif()

@@ -1,12 +1,15 @@
-# Tests of the reference: first by itself, before anything is compared with it, then with the attachment of the skeleton.
+# Tests of the reference: first by itself, before anything is compared with it, then with the attachment of the
+# skeleton.
 if(NOT TARGET reference_fem)
     return()
 endif()
 
 pbs_tests(unit reference_fem_laws FOLDERS reference_fem/laws LIBRARIES reference_fem_laws)
-pbs_tests(unit reference_fem BLAS AT_ONCE FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
+pbs_tests(unit reference_fem BLAS AT_ONCE FOLDERS reference_fem EXCEPT reference_fem/laws
+    LIBRARIES reference_fem_verification)
 pbs_tests(verification reference_fem_laws FILES reference_fem/laws LIBRARIES reference_fem_laws)
-pbs_tests(verification reference_fem BLAS AT_ONCE FOLDERS reference_fem EXCEPT reference_fem/laws LIBRARIES reference_fem_verification)
+pbs_tests(verification reference_fem BLAS AT_ONCE FOLDERS reference_fem EXCEPT reference_fem/laws
+    LIBRARIES reference_fem_verification)
 if(NOT TARGET fem_verification)
     return()
 endif()
@@ -22,8 +25,8 @@ pbs_tests(unit experiments_fem BLAS AT_ONCE FOLDERS experiments/deformers/fem
     EXCEPT experiments/deformers/fem/fem_module
     LIBRARIES fem_deformer pbs_characters reference_fem_verification)
 pbs_tests(verification experiments_fem BLAS AT_ONCE FOLDERS experiments/deformers/fem
-    FILES experiments/studies/stability/broken_fem_starts experiments/studies/verification/calculix experiments/verification_record
-    EXCEPT ${left_out}
+    FILES experiments/studies/stability/broken_fem_starts experiments/studies/verification/calculix
+    experiments/verification_record EXCEPT ${left_out}
     LIBRARIES fem_verification experiments)
 target_sources(test_verification_experiments_fem PRIVATE support/blas_main.cpp)
 foreach(target unit_reference_fem verification_reference_fem unit_experiments_fem)

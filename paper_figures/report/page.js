@@ -1,5 +1,6 @@
 "use strict";
-// Shows the values of plots under the pointer, the finger, or by the arrow keys; a claim's link opens the data behind it.
+// Shows the values of plots under the pointer, the finger, or by the arrow keys; a claim's link opens the data behind
+// it.
 const readout = document.getElementById("readout");
 let shown = null;
 

@@ -12,18 +12,21 @@ const program = "/usr/bin/chromium";
 const options = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
                  "--disable-background-networking"];
 
-// Opens the file in a window of this size; `problems` collects what the page reports, and every address it requests except itself.
-export async function open(file, hash = "", { width = 1280, height = 900, scale = 1, touch = false, scheme = "light" } = {}) {
+// Opens the file in a window of this size; `problems` collects what the page reports, and every address it requests
+// except itself.
+export async function open(file, hash = "", { width = 1280, height = 900, scale = 1, touch = false,
+                                              scheme = "light" } = {}) {
     const { chromium } = createRequire(path.join(root, "paper_figures/viewer/package.json"))("playwright-core");
     const profile = fs.mkdtempSync(path.join(os.tmpdir(), "pbskin_browser_"));
     const context = await chromium.launchPersistentContext(profile, {
-        executablePath: program, headless: true, args: options, viewport: { width, height }, deviceScaleFactor: scale, hasTouch: touch,
-        colorScheme: scheme,
+        executablePath: program, headless: true, args: options, viewport: { width, height }, deviceScaleFactor: scale,
+        hasTouch: touch, colorScheme: scheme,
         timeout: 120000,
     });
     const page = await context.newPage(), problems = [];
     page.setDefaultTimeout(120000);
-    page.on("console", (message) => { if (["error", "warning"].includes(message.type())) problems.push(message.text()); });
+    page.on("console",
+            (message) => { if (["error", "warning"].includes(message.type())) problems.push(message.text()); });
     page.on("pageerror", (error) => problems.push(String(error)));
     const address = pathToFileURL(file).href;
     page.on("request", (request) => {
@@ -84,8 +87,8 @@ export function test_in_windows(what, file, hash, check) {
                                                         (other) => check(other, name, width, height)));
 }
 
-// On a phone, in the light and in the dark form: no page scrolls sideways, every figure with all its labels is within its box and the
-// window, its letters are large enough to be read, and the bar of the viewer's reference is visible.
+// On a phone, in the light and in the dark form: no page scrolls sideways, every figure with all its labels is within
+// its box and the window, its letters are large enough to be read, and the bar of the viewer's reference is visible.
 const least_letter_px = 8;
 
 export function test_figures_on_a_phone(file) {
@@ -95,11 +98,13 @@ export function test_figures_on_a_phone(file) {
                 await phone.evaluate(() => {
                     for (const part of document.querySelectorAll("section > details:not(.claim)")) part.open = true;
                 });
-                assert.ok(await phone.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "it scrolls sideways");
+                assert.ok(await phone.evaluate(() => document.documentElement.scrollWidth <= innerWidth),
+                          "it scrolls sideways");
                 const { figures, faults } = await phone.evaluate(faults_of_figures, least_letter_px);
                 assert.ok(figures > 0, "no figure");
                 assert.deepEqual(faults, []);
-                const bars = await phone.locator(".vw-panel").evaluateAll((all) => all.map((one) => getComputedStyle(one).borderTopColor));
+                const bars = await phone.locator(".vw-panel")
+                    .evaluateAll((all) => all.map((one) => getComputedStyle(one).borderTopColor));
                 assert.ok(bars.length > 0 && (scheme === "light" || !bars.includes("rgb(0, 0, 0)")), `bars: ${bars}`);
             }));
 }
@@ -110,11 +115,14 @@ function faults_of_figures(least_px) {
         const name = plot.closest("figure").id, box = plot.getBoundingClientRect();
         if (box.left < -0.5 || box.right > innerWidth + 0.5) faults.push(`${name}: wider than the window`);
         for (const label of plot.querySelectorAll("text")) {
-            const { left, right, top, bottom } = label.getBoundingClientRect(), what = `${name}: ${label.textContent.trim().slice(0, 30)}`;
-            if (left < box.left - 1 || right > box.right + 1 || top < box.top - 1 || bottom > box.bottom + 1)
-                faults.push(
-                    `${what}: ${[left - box.left, box.right - right, top - box.top, box.bottom - bottom].map(Math.round)} px inside`);
-            const { a, b } = label.getScreenCTM(), letter_px = parseFloat(getComputedStyle(label).fontSize) * Math.hypot(a, b);
+            const { left, right, top, bottom } = label.getBoundingClientRect(),
+                what = `${name}: ${label.textContent.trim().slice(0, 30)}`;
+            if (left < box.left - 1 || right > box.right + 1 || top < box.top - 1 || bottom > box.bottom + 1) {
+                const inside = [left - box.left, box.right - right, top - box.top, box.bottom - bottom];
+                faults.push(`${what}: ${inside.map(Math.round)} px inside`);
+            }
+            const { a, b } = label.getScreenCTM(),
+                letter_px = parseFloat(getComputedStyle(label).fontSize) * Math.hypot(a, b);
             if (letter_px < least_px) faults.push(`${what}: letters of ${letter_px.toFixed(1)} px`);
         }
     }

@@ -1,16 +1,19 @@
-// Reference: the records and the definition of the page. It opens from disk, without other files, in a desktop and a phone window, and
-// contains the viewer. The values under the pointer are in each figure's CSV, nothing overlaps or exceeds the window, every part is
-// reachable by keyboard, and the page can be printed. Tests whose names begin with "the report" need no figures (browser_test.py).
+// Reference: the records and the definition of the page. It opens from disk, without other files, in a desktop and a
+// phone window, and contains the viewer. The values under the pointer are in each figure's CSV, nothing overlaps or
+// exceeds the window, every part is reachable by keyboard, and the page can be printed. Tests whose names begin with
+// "the report" need no figures (browser_test.py).
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import { test } from "node:test";
-import { in_window, open_viewer, page, settle, test_figures_on_a_phone, test_in_windows, test_that_nothing_was_reported, use_page } from
+import { in_window, open_viewer, page, settle, test_figures_on_a_phone, test_in_windows, test_that_nothing_was_reported,
+         use_page } from
     "./browser.mjs";
 import { file, pictures, rows_about, rows_of, stand_in, undrawn } from "./records.mjs";
 
 // Opens the sections, not the lines of the claims.
 function unfold(on) {
-    return on.evaluate(() => document.querySelectorAll("section > details:not(.claim)").forEach((part) => { part.open = true; }));
+    return on.evaluate(() => document.querySelectorAll("section > details:not(.claim)")
+                           .forEach((part) => { part.open = true; }));
 }
 
 use_page(async () => {
@@ -33,7 +36,8 @@ test_in_windows("the report", file, "", async (other, name, width, height) => {
     await other.waitForFunction(() => window.viewer.state.now.claim === "C01");
     await other.waitForTimeout(1500);  // smooth scrolling
     await settle(other);
-    const { top, bottom } = await other.evaluate(() => document.getElementById("frame-viewer").getBoundingClientRect().toJSON());
+    const { top, bottom } = await other.evaluate(() => document.getElementById("frame-viewer").getBoundingClientRect()
+                                                     .toJSON());
     assert.ok(top < height && bottom > 0, `the viewer is at ${top} to ${bottom} px`);
     const ids = await other.evaluate(() => [...document.querySelectorAll("[id]")].map((one) => one.id));
     assert.ok(await other.locator("h2").count() > 3);
@@ -47,16 +51,19 @@ test("the verdicts are seen before anything is scrolled, and then the moving cha
     assert.deepEqual(questions, [
         "Do the paper\u2019s claims hold?", "How far is PBS from simulated flesh?", "Which method for which time?",
     ]);
-    const chips = await page.locator(".claims .chip").evaluateAll((all) => all.map((one) => one.getBoundingClientRect().bottom + scrollY));
+    const chips = await page.locator(".claims .chip")
+        .evaluateAll((all) => all.map((one) => one.getBoundingClientRect().bottom + scrollY));
     assert.ok(chips.filter((end) => end <= 900).length >= 10, `they end at ${chips} px`);
-    assert.deepEqual((await page.locator(".claims .chip").allTextContents()).filter((words) => !/[a-z]{4}/.test(words)), []);
+    assert.deepEqual((await page.locator(".claims .chip").allTextContents()).filter((words) => !/[a-z]{4}/.test(words)),
+                     []);
 });
 
 test("each claim is a line that opens, with its units, bound and controls on an axis", async () => {
     const lines = page.locator("details.claim"), judged = await page.locator(".claims .chip").count();
     assert.equal(await lines.count(), judged);
     const line = page.locator("#C01"), axis = line.locator("svg.axis");
-    for (const part of ["circle", "rect.threshold", "path.control"]) assert.ok(await axis.locator(part).count() > 0, part);
+    for (const part of ["circle", "rect.threshold", "path.control"])
+        assert.ok(await axis.locator(part).count() > 0, part);
     assert.match(await axis.getAttribute("aria-label"), /^mean volume loss: .*threshold: 12 to 16/);
     assert.ok(await line.locator("table").first().isHidden());
     await page.locator('.claims a[href="#C01"]').click();
@@ -66,7 +73,8 @@ test("each claim is a line that opens, with its units, bound and controls on an 
 });
 
 test("every drawn figure is there, inline; of the others, and of no more, why not", async () => {
-    const there = await page.locator("#figures figure").evaluateAll((all) => all.map((one) => one.id.replace("figure-", "")));
+    const there = await page.locator("#figures figure")
+        .evaluateAll((all) => all.map((one) => one.id.replace("figure-", "")));
     for (const name of there) assert.equal(await page.locator(`#figure-${name} svg.plot`).count(), 1, name);
     const reasons = await page.locator("#figures .not-drawn li").allTextContents();
     const refused = reasons.map((reason) => reason.match(/^figure (\w+): .{10}/)?.[1] ?? reason);
@@ -75,7 +83,8 @@ test("every drawn figure is there, inline; of the others, and of no more, why no
     assert.ok(there.length >= 8, `${there.length} figures`);
 });
 
-// The lines of a plot: the numbers of their points, by label; bars at a named place have one number each, by both names.
+// The lines of a plot: the numbers of their points, by label; bars at a named place have one number each, by both
+// names.
 function lines_of(values) {
     const lines = new Map();
     for (const value of values) {
@@ -92,14 +101,16 @@ test("the values under the pointer are the figure's CSV's", async () => {
     const plots = page.locator("svg.plot:has(.values circle)");
     assert.ok(await plots.count() >= 5, `${await plots.count()} plots with values`);
     for (let at = 0; at < await plots.count(); ++at) {
-        const plot = plots.nth(at), name = await plot.evaluate((one) => one.closest("figure").id.replace("figure-", ""));
+        const plot = plots.nth(at),
+            name = await plot.evaluate((one) => one.closest("figure").id.replace("figure-", ""));
         const panels = await plot.locator(".values").evaluateAll((all) => all.map((panel) =>
             [...panel.querySelectorAll("circle")].map((circle) => circle.dataset.value)));
         const rows = rows_of(name), lines = panels.flatMap((values) => [...lines_of(values)]);
         assert.ok(lines.length > 0, `${name}: no number to be checked`);
         for (const [label, points] of lines) {
             const about = points[0].length > 1 ? rows : rows_about(rows, JSON.parse(label));
-            assert.ok(stand_in(about, points), `${name}: ${label} is not in its CSV: ${JSON.stringify(points.slice(0, 3))}`);
+            assert.ok(stand_in(about, points),
+                      `${name}: ${label} is not in its CSV: ${JSON.stringify(points.slice(0, 3))}`);
             // A wrong number may equal that of another row by chance, so that one of the three wrong sets may be found.
             const found = [[1.0137, 0.0211], [1.0291, -0.0137], [1.0473, 0.0319]].filter(([factor, more]) =>
                 stand_in(about, points.map((numbers) => numbers.map((number) => factor * number + more))));
@@ -131,7 +142,8 @@ function nearest_value(plot, x, y) {
             return Math.hypot((box.left + box.right) / 2 - px, (box.top + box.bottom) / 2 - py);
         };
         const least = Math.min(...all.map(away));
-        return { least, values: all.filter((circle) => away(circle) < least + 0.5).map((circle) => circle.dataset.value) };
+        return { least, values: all.filter((circle) => away(circle) < least + 0.5)
+                     .map((circle) => circle.dataset.value) };
     }, [x, y]);
 }
 
@@ -202,7 +214,8 @@ test("the arrow keys lead from value to value in a plot", async () => {
 test("keys alone get to the viewer, move its time and play", async () => {
     await page.evaluate(() => { window.scrollTo(0, 0); document.activeElement.blur(); });
     let pressed = 0;
-    const on_slider = () => page.evaluate(() => document.activeElement.matches('#frame-viewer input[aria-label="frame"]'));
+    const on_slider = () =>
+        page.evaluate(() => document.activeElement.matches('#frame-viewer input[aria-label="frame"]'));
     while (!await on_slider() && ++pressed < 300) await page.keyboard.press("Tab");
     assert.ok(await on_slider(), `not reached by ${pressed} tabs`);
     const at = () => page.evaluate(() => window.viewer.state.now.at);
@@ -228,8 +241,8 @@ test("a claim's link to its pose takes the focus along", async () => {
     assert.ok(await page.evaluate(() => document.getElementById("frame-viewer").contains(document.activeElement)));
 });
 
-// Elements with text outside the window, except those in a box that scrolls (nothing scrolls on paper); cells of one row that overlap;
-// cells whose content is wider than they are.
+// Elements with text outside the window, except those in a box that scrolls (nothing scrolls on paper); cells of one
+// row that overlap; cells whose content is wider than they are.
 function faults_of_layout(boxes) {
     const scrolls = (one) => one.closest(`${boxes}.unseen, .skip, #readout, details:not([open])`);
     const seen = (one) => one.getClientRects().length > 0;
@@ -244,7 +257,8 @@ function faults_of_layout(boxes) {
             const down = Math.min(one.bottom, other.bottom) - Math.max(one.top, other.top);
             if (across > 1 && down > 1) over.push(name(cell));
         }));
-        over.push(...cells.filter(([cell]) => cell.scrollWidth > cell.clientWidth + 1).map(([cell]) => `too narrow: ${name(cell)}`));
+        over.push(...cells.filter(([cell]) => cell.scrollWidth > cell.clientWidth + 1)
+                      .map(([cell]) => `too narrow: ${name(cell)}`));
     }
     return { beyond, over };
 }
@@ -254,7 +268,8 @@ test_in_windows("nothing is beyond the window or lies over another", file, "", a
     assert.deepEqual(await other.evaluate(faults_of_layout, ".scroll, pre, "), { beyond: [], over: [] });
     if (pictures) {
         await other.locator("#verdicts").screenshot({ path: `${pictures}/page_verdicts_${name}.png` });
-        await other.locator("#figures figure:has(svg)").last().screenshot({ path: `${pictures}/page_figure_${name}.png` });
+        await other.locator("#figures figure:has(svg)").last()
+            .screenshot({ path: `${pictures}/page_figure_${name}.png` });
     }
 });
 
@@ -262,16 +277,19 @@ test_figures_on_a_phone(file);
 
 test("on paper the tables are whole, without what can only be pressed", async () => {
     await page.emulateMedia({ media: "print", reducedMotion: "reduce" });
-    for (const hidden of ["nav", "#frame-viewer .vw-bars", ".skip"]) assert.ok(await page.locator(hidden).first().isHidden(), hidden);
+    for (const hidden of ["nav", "#frame-viewer .vw-bars", ".skip"])
+        assert.ok(await page.locator(hidden).first().isHidden(), hidden);
     await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
     const printed = page.locator("#frame-viewer .vw-printed");
     await page.waitForFunction(() => document.querySelector(".vw-printed").complete);
-    assert.ok(await printed.isVisible() && await printed.evaluate((image) => image.naturalWidth) > 300, "no picture of the viewer");
+    assert.ok(await printed.isVisible() && await printed.evaluate((image) => image.naturalWidth) > 300,
+              "no picture of the viewer");
     const clipped = await page.locator(".scroll").evaluateAll((all) => all.filter((one) => one.getClientRects().length
         && getComputedStyle(one).overflowY !== "visible").length);
     assert.equal(clipped, 0);
     const { width, height } = page.viewportSize();
-    await page.setViewportSize({ width: 718, height: 1046 });  // A4 at 96 points per inch within Chromium's margins of 1 cm
+    // A4 at 96 points per inch within Chromium's margins of 1 cm.
+    await page.setViewportSize({ width: 718, height: 1046 });
     await settle(page);
     assert.deepEqual(await page.evaluate(faults_of_layout, "pre, "), { beyond: [], over: [] });
     if (pictures) await page.screenshot({ path: `${pictures}/page_paper.png` });

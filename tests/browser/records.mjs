@@ -6,9 +6,11 @@ export const file = process.env.PBS_REPORT_PAGE, pictures = process.env.PBS_VIEW
 export const results = path.dirname(file);
 
 const { PBS_VIEWER_TRUTH } = process.env;
-export const undrawn = PBS_VIEWER_TRUTH ? JSON.parse(fs.readFileSync(PBS_VIEWER_TRUTH)).undrawn : [];  // figures that do not exist
+// Figures that do not exist.
+export const undrawn = PBS_VIEWER_TRUTH ? JSON.parse(fs.readFileSync(PBS_VIEWER_TRUTH)).undrawn : [];
 
-// A figure's CSV: for each row its numbers, an array of [column, number] pairs, and its texts; "1654 / 1716" is two numbers of one column.
+// A figure's CSV: for each row its numbers, an array of [column, number] pairs, and its texts; "1654 / 1716" is two
+// numbers of one column.
 export function rows_of(name) {
     const [header, ...rows] = cells_of(fs.readFileSync(path.join(results, "figures", `${name}.csv`), "utf8"));
     const numbers_of = (row) => row.flatMap((cell, at) => numbers_in(cell).map((number) => [header[at], number]));
@@ -25,8 +27,9 @@ function cells_of(text) {
         .map(([, quoted, plain]) => (quoted ?? plain).replaceAll('""', '"')));
 }
 
-// Checks that the points of a line are in the CSV of its figure: each point's numbers in one row, each axis in one column and one unit. The
-// number on one axis may also be part of the name of the column for the other axis ("change_24_pct").
+// Checks that the points of a line are in the CSV of its figure: each point's numbers in one row, each axis in one
+// column and one unit. The number on one axis may also be part of the name of the column for the other axis
+// ("change_24_pct").
 
 const units = [1, 1000, 0.001, 100, 0.01];  // the CSV has the units of the record
 const digits = 2e-5;  // values are shown to six digits
@@ -44,7 +47,8 @@ function readings(rows, said) {
 function rows_with(rows, said, column, unit) {
     const found = [];
     for (const value of said) {
-        const standing = new Set(rows.filter(({ numbers }) => numbers.some(([of, number]) => of === column && same(unit * number, value))));
+        const standing = new Set(rows.filter(({ numbers }) => numbers.some(([of, number]) => of === column
+                                                                           && same(unit * number, value))));
         if (standing.size === 0) return null;
         found.push(standing);
     }
@@ -53,8 +57,9 @@ function rows_with(rows, said, column, unit) {
 
 // names: for each point the number that is part of the column's name; values: the number in that column.
 function stand_under_names(rows, names, values) {
-    return units.some((unit) => values.every((value, at) => rows.some(({ numbers }) => numbers.some(([column, number]) =>
-        column.includes(`_${names[at]}_`) && same(unit * number, value)))));
+    const stands = (names_of, value, unit) => rows.some(({ numbers }) => numbers.some(([column, number]) =>
+        column.includes(`_${names_of}_`) && same(unit * number, value)));
+    return units.some((unit) => values.every((value, at) => stands(names[at], value, unit)));
 }
 
 // The rows that contain all of those words that occur in any row; all rows if none of the words does.
@@ -69,6 +74,8 @@ export function stand_in(rows, points) {
     const axes = points[0].map((_, axis) => points.map((point) => point[axis]));
     if (axes.length === 1) return readings(rows, axes[0]).length > 0;
     const [across, up] = axes.map((said) => readings(rows, said));
-    return across.some((of_x) => up.some((of_y) => of_x.every((standing, at) => [...standing].some((row) => of_y[at].has(row)))))
+    return across.some((of_x) =>
+                           up.some((of_y) =>
+                                       of_x.every((standing, at) => [...standing].some((row) => of_y[at].has(row)))))
         || stand_under_names(rows, axes[0], axes[1]) || stand_under_names(rows, axes[1], axes[0]);
 }

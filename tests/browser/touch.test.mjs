@@ -1,5 +1,5 @@
-// Reference: the definition. On a phone one finger scrolls the page and does not change the view; two fingers rotate and zoom the view and
-// do not move the page.
+// Reference: the definition. On a phone one finger scrolls the page and does not change the view; two fingers rotate
+// and zoom the view and do not move the page.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { open_viewer, page, settle, use_page } from "./browser.mjs";
@@ -25,7 +25,8 @@ function touch(type, points) {
     return client.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
 }
 
-// Moves each finger from one place to another, relative to the middle of the first panel [px]; returns the state before and after.
+// Moves each finger from one place to another, relative to the middle of the first panel [px]; returns the state before
+// and after.
 async function gesture(from, to, steps = 12) {
     await page.evaluate(() => document.querySelector("#frame-viewer .vw-view").scrollIntoView({ block: "center" }));
     await settle(page);
@@ -75,7 +76,8 @@ test("two fingers shift the view once the button says so, and turn it after", as
     await button.tap();
     assert.equal(await button.getAttribute("aria-pressed"), "true");
     const [before, after] = await upwards();
-    assert.ok(after.target[1] < before.target[1] - 0.005, `from ${before.target} to ${after.target} m`);  // the body moves up with them
+    // The body moves up with them.
+    assert.ok(after.target[1] < before.target[1] - 0.005, `from ${before.target} to ${after.target} m`);
     for (const kept of ["up", "around"]) assert_near(after[kept], before[kept], 1e-3);
     assert.equal(after.scrolled, before.scrolled);
     await button.tap();

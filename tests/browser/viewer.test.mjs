@@ -1,5 +1,5 @@
-// Reference: the records. The viewer in a real browser draws and states what the study `frames` wrote, within the stated quantisation. The
-// rendered surface lies where the tets carry it, and a cut shows the tets in its place.
+// Reference: the records. The viewer in a real browser draws and states what the study `frames` wrote, within the
+// stated quantisation. The rendered surface lies where the tets carry it, and a cut shows the tets in its place.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { opened, page, settle, test_that_nothing_was_reported } from "./browser.mjs";
@@ -48,8 +48,8 @@ for (const sample of truth.samples) {
 function painted() {
     return page.evaluate(() => {
         const { geometry, vertices, tets } = window.viewer.viewer.panels[0].body;
-        return { colours: [...geometry.attributes.colour.array.subarray(0, 3 * vertices.length)], vertices: [...vertices],
-                 tets: [...tets] };
+        return { colours: [...geometry.attributes.colour.array.subarray(0, 3 * vertices.length)],
+                 vertices: [...vertices], tets: [...tets] };
     });
 }
 
@@ -76,10 +76,12 @@ for (const sample of truth.samples.filter(({ frame }) => frame > 0)) {
         const place = (ratio) => Math.round(last * Math.min(1, Math.max(0, (ratio - low) / (high - low))));
         const inverted = rgb_of(truth.colours.inverted), rounding = 0.5 / 127 + 1e-6;
         const is_inverted = (corner) => sample.ratios[made.tets[Math.floor(corner / 3)]] <= 0;
-        made.vertices.forEach((_, corner) => assert.equal(is_same(inverted, made.colours.slice(3 * corner, 3 * corner + 3)),
-                                                          is_inverted(corner), `corner ${corner}`));
+        made.vertices.forEach((_, corner) =>
+                                  assert.equal(is_same(inverted, made.colours.slice(3 * corner, 3 * corner + 3)),
+                                               is_inverted(corner), `corner ${corner}`));
         const shown = made.vertices.map((_, corner) => corner).filter((corner) => !is_inverted(corner));
-        const kept = { colours: shown.flatMap((corner) => made.colours.slice(3 * corner, 3 * corner + 3)), vertices: shown };
+        const kept = { colours: shown.flatMap((corner) => made.colours.slice(3 * corner, 3 * corner + 3)),
+                       vertices: shown };
         assert_shades(kept, shades, (at) => {
             const ratio = sample.ratios[made.tets[Math.floor(shown[at] / 3)]];
             return [place(ratio - rounding), place(ratio + rounding)];
@@ -93,7 +95,8 @@ for (const sample of truth.samples.filter(({ frame }) => frame > 0)) {
             const { step_m: step, difference_mm } = window.viewer.viewer.run;
             return { step_m: step, most_mm: difference_mm };
         });
-        const place = (distance_m) => Math.round(last * Math.min(1, Math.max(0, sample.mm_per_m * distance_m) / most_mm));
+        const place = (distance_m) =>
+            Math.round(last * Math.min(1, Math.max(0, sample.mm_per_m * distance_m) / most_mm));
         const rounding_m = Math.sqrt(3) * (step_m + roundings(sample.positions_m, 4));  // rounding of both bodies
         assert_shades(made, shades, (corner) => {
             const distance_m = sample.distances_m[made.vertices[corner]];
@@ -117,7 +120,8 @@ test("overlap and touching skin have the colours of the recorded depths", async 
 });
 
 test("the first number under a panel is the frame's distance of the skin on record", async () => {
-    const [sample] = truth.samples.filter(({ figures: { skin_rms_mm }, label, reference }) => skin_rms_mm > 0 && label !== reference);
+    const [sample] = truth.samples.filter(({ figures: { skin_rms_mm }, label, reference }) => skin_rms_mm > 0
+                                          && label !== reference);
     await show_sample(sample, "error");
     const words = await page.locator("#frame-viewer .vw-first").first().textContent();
     assert.match(words, /mm from the reference, volume/);
@@ -130,7 +134,8 @@ function darkest_at(place) {
         const { viewer } = window.viewer, bytes = window.viewer.pixels(0), { camera, renderer } = viewer.views;
         const box = viewer.panel_elements[0].view.getBoundingClientRect(), ratio = renderer.getPixelRatio();
         const seen = camera.position.clone().set(x, y, z).project(camera), width = Math.round(box.width * ratio);
-        const [across, up] = [(seen.x + 1) / 2 * box.width * ratio, (seen.y + 1) / 2 * box.height * ratio].map(Math.round);
+        const [across, up] = [(seen.x + 1) / 2 * box.width * ratio,
+                              (seen.y + 1) / 2 * box.height * ratio].map(Math.round);
         let darkest = 255;
         for (let dx = -1; dx <= 1; ++dx)
             for (let dy = -1; dy <= 1; ++dy) {
@@ -158,7 +163,8 @@ for (const sample of truth.samples.filter(({ bones }) => bones)) {
 test("a pose that was not reached is marked, and nothing is painted against it", async () => {
     const [sample] = truth.samples.filter(({ label, frame, reference }) => frame > 0 && label !== reference);
     await show_sample(sample, "error");
-    const marks = () => page.locator("#frame-viewer .vw-mark").evaluateAll((all) => all.map((one) => one.getClientRects().length > 0));
+    const marks = () => page.locator("#frame-viewer .vw-mark")
+        .evaluateAll((all) => all.map((one) => one.getClientRects().length > 0));
     const shades = async () => new Set((await painted()).colours.map((part) => part.toFixed(3))).size;
     assert.deepEqual(await marks(), [false]);
     assert.ok(await shades() > 9);
@@ -178,11 +184,13 @@ test("a pose that was not reached is marked, and nothing is painted against it",
 });
 
 test("the legend's numbers are the record's", async () => {
-    // One in a hundred recorded distances is larger than the end of the scale before it is rounded up to 1, 2 or 5; of the packed frames.
+    // One in a hundred recorded distances is larger than the end of the scale before it is rounded up to 1, 2 or 5; of
+    // the packed frames.
     for (const [run, distance_mm] of Object.entries(truth.distance_of_99_pct_mm)) {
         await show_sample({ run, frame: 0, label: "lbs" }, "error");
         const end = Number(await page.locator("#frame-viewer .vw-marks span").last().getAttribute("data-value"));
-        assert.ok(end >= 0.9 * distance_mm && end <= 2.6 * distance_mm, `${run}: ${end} mm, on record ${distance_mm} mm`);
+        assert.ok(end >= 0.9 * distance_mm && end <= 2.6 * distance_mm,
+                  `${run}: ${end} mm, on record ${distance_mm} mm`);
     }
     await show({ colour: "ratio" });
     assert.deepEqual(await page.locator("#frame-viewer .vw-marks span").allTextContents(), ["0.5", "1", "1.5"]);
@@ -198,7 +206,8 @@ for (const sample of truth.skins) {
         await show_sample(sample, "skin", { rendered: true });
         await assert_carried(sample);
         assert.match(await legend_words(), /^the rendered surface, carried by the tets/);
-        if (pictures) await page.locator("#frame-viewer").screenshot({ path: `${pictures}/viewer_${sample.run}_${sample.label}.png` });
+        if (pictures) await page.locator("#frame-viewer")
+            .screenshot({ path: `${pictures}/viewer_${sample.run}_${sample.label}.png` });
     });
     test(`a cut shows the tets in place of the rendered surface: ${name}`, async () => {
         await show_sample(sample, "error", { rendered: true, cut: "z" });
@@ -228,8 +237,9 @@ test("k and the button show the rendered surface or the tets; legend and address
 
 test("the button is dead, looks dead and says why under a cut and on a body without a rendered surface", async () => {
     const button = rendered_button();
-    const shown = async () => [await button.isDisabled(), await button.getAttribute("aria-pressed"), await button.getAttribute("title"),
-                              await button.evaluate((one) => Number(getComputedStyle(one).opacity))];
+    const shown = async () => [await button.isDisabled(), await button.getAttribute("aria-pressed"),
+                               await button.getAttribute("title"),
+                               await button.evaluate((one) => Number(getComputedStyle(one).opacity))];
     const [skin] = truth.skins, [limb] = truth.samples.filter(({ run }) => run.startsWith("limb"));
     await show_sample(skin, "skin", { rendered: true });
     assert.deepEqual(await shown(), [false, "true", "show the rendered surface in place of the tets' boundary", 1]);

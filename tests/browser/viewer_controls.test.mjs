@@ -16,9 +16,12 @@ test("in a panel shift and the arrows shift the view, without turning it", async
         await settle(page);
         const second = await seen();
         assert.ok(second.target[axis] > first.target[axis] + 0.005, `${key}: from ${first.target} to ${second.target}`);
-        // Camera and target each round their sum with the step once, and so do the two differences: six roundings of half an epsilon.
-        const farthest = Math.max(...[first, second].map(({ target, eye }) => Math.hypot(...target) + Math.hypot(...eye)));
-        second.eye.forEach((part, at) => assert.ok(Math.abs(part - first.eye[at]) <= 3 * Number.EPSILON * farthest, key));
+        // Camera and target each round their sum with the step once, and so do the two differences: six roundings of
+        // half an epsilon.
+        const farthest = Math.max(...[first, second].map(({ target, eye }) => Math.hypot(...target)
+                                                         + Math.hypot(...eye)));
+        second.eye.forEach((part, at) => assert.ok(Math.abs(part - first.eye[at]) <= 3 * Number.EPSILON * farthest,
+                                                   key));
     }
 });
 
@@ -29,7 +32,8 @@ test("the slider moves the vertices, the clock and the address", async () => {
     await page.keyboard.press("End");
     await settle(page);
     const after_move = await drawn_positions();
-    const moved_m = Math.max(...after_move.map((value, i) => Math.abs(value - before_move[i])).filter((value) => !Number.isNaN(value)));
+    const moved_m = Math.max(...after_move.map((value, i) => Math.abs(value - before_move[i]))
+                                 .filter((value) => !Number.isNaN(value)));
     assert.ok(moved_m > 0.05, `${moved_m} m`);
     const last = await page.evaluate(() => window.viewer.viewer.run.frames.at(-1));
     assert.match(await page.locator("#frame-viewer .vw-time").textContent(), new RegExp(`^frame ${last} \\(last\\),`));
@@ -102,17 +106,21 @@ test("a claim's link opens its pose", async () => {
         assert.deepEqual({ run, frame, colour }, { run: pose.run, frame: pose.frame, colour: pose.colour });
         const stated = await page.locator("#frame-viewer .vw-claim").textContent();
         assert.ok(stated.startsWith(`${pose.claim}.`));
-        assert.match(stated, new RegExp(`Colour: ${{ skin: "skin", ratio: "volume ratio", error: "difference" }[pose.colour]}\\.$`));
+        assert.match(stated,
+                     new RegExp(
+                         `Colour: ${{ skin: "skin", ratio: "volume ratio", error: "difference" }[pose.colour]}\\.$`));
         const { drawn, known } = await page.evaluate(() => {
             const { viewer, state: { now } } = window.viewer;
             return { drawn: viewer.panels[0].body.tets.length, known: viewer.run.surface?.corners.length };
         });
         if (known) assert.equal(drawn, known / 3, `${pose.claim}: not the rendered surface`);
-        if (pose.panels) assert.deepEqual(await page.evaluate(() => window.viewer.state.now.panels), pose.panels.split(","));
+        if (pose.panels) assert.deepEqual(await page.evaluate(() => window.viewer.state.now.panels),
+                                          pose.panels.split(","));
     }
 });
 
-test("without an address LBS, PBS and the reference play by themselves, unless the reader prefers less motion", async () => {
+test("without an address LBS, PBS and the reference play by themselves, unless the reader prefers less motion",
+     async () => {
     const { page: other, problems, close } = await open(file);
     try {
         await other.evaluate(() => window.viewer.ready);
@@ -143,19 +151,23 @@ test("the copied link opens the same view again", async () => {
     await page.locator("#frame-viewer button", { hasText: "copy link" }).click();
     await page.waitForFunction(() => /[?#].*view=/.test(location.href));
     const seen = (on) => on.evaluate(() => ({ at: window.viewer.state.now.at, colour: window.viewer.state.now.colour,
-                                              panels: window.viewer.state.now.panels, view: window.viewer.viewer.views.seen() }));
+                                              panels: window.viewer.state.now.panels,
+                                              view: window.viewer.viewer.views.seen() }));
     const here = await seen(page);
     await in_window(file, new URL(page.url()).hash, {}, async (other) => {
         const there = await seen(other);
         assert.deepEqual({ ...there, view: [] }, { ...here, view: [] });
         // The link has four digits.
-        there.view.forEach((one, at) => assert.ok(Math.abs(one - here.view[at]) <= 1e-3 * Math.max(1, Math.abs(one)), `${one}`));
+        there.view.forEach((one, at) => assert.ok(Math.abs(one - here.view[at]) <= 1e-3 * Math.max(1, Math.abs(one)),
+                                                  `${one}`));
     });
 });
 
-test_in_windows("nothing is wider than the window, every control can be pressed", file, "#claim=C09a", async (other, name) => {
+test_in_windows("nothing is wider than the window, every control can be pressed", file, "#claim=C09a",
+                async (other, name) => {
     const wide = await other.evaluate(() => [...document.querySelectorAll("#frame-viewer, #frame-viewer *")]
-        .filter((one) => one.getBoundingClientRect().right > innerWidth + 0.5).map((one) => one.className || one.tagName));
+        .filter((one) => one.getBoundingClientRect().right > innerWidth + 0.5)
+            .map((one) => one.className || one.tagName));
     assert.deepEqual(wide, []);
     assert.ok(await other.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
     const controls = other.locator("#frame-viewer").locator("button, select, input");
@@ -165,7 +177,8 @@ test_in_windows("nothing is wider than the window, every control can be pressed"
     const cut = await other.locator("#frame-viewer .vw-panel select").evaluateAll((all) => all.filter((one) => {
         const pen = document.createElement("canvas").getContext("2d");
         pen.font = getComputedStyle(one).font;
-        return pen.measureText(one.selectedOptions[0].text).width + 20 > one.clientWidth;  // plus the width of the arrow
+        // Plus the width of the arrow.
+        return pen.measureText(one.selectedOptions[0].text).width + 20 > one.clientWidth;
     }).map((one) => one.selectedOptions[0].text));
     assert.deepEqual(cut, []);
     if (pictures) await other.screenshot({ path: `${pictures}/viewer_${name}.png`, fullPage: true });

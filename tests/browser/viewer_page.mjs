@@ -12,7 +12,8 @@ use_page(async () => {
     return shown;
 });
 
-// The number of colours in the panel without its ground, and the share of its pixels that differ from the most frequent one.
+// The number of colours in the panel without its ground, and the share of its pixels that differ from the most frequent
+// one.
 export function colours_of(panel) {
     return page.evaluate((at) => {
         const ground = window.viewer.viewer.panels[at].ground.mesh;
@@ -39,11 +40,13 @@ export function drawn_positions() {
 
 export async function show_sample({ run, frame, label }, colour = "skin", { rendered = false, cut = null } = {}) {
     const also = (rendered ? "&surface=rendered" : "") + (cut ? `&cut=${cut},0.01,below` : "");
-    await page.evaluate((hash) => { location.hash = hash; }, `run=${run}&frame=${frame}&colour=${colour}&panels=${label}${also}`);
+    await page.evaluate((hash) => { location.hash = hash; },
+                        `run=${run}&frame=${frame}&colour=${colour}&panels=${label}${also}`);
     await page.waitForFunction((wanted) => {
         const { viewer, state: { now } } = window.viewer;
         return now.run === wanted.run && now.panels[0] === wanted.label && now.colour === wanted.colour
-            && viewer.run.frames[now.at] === wanted.frame && now.rendered === wanted.rendered && (now.cut?.axis ?? null) === wanted.cut;
+            && viewer.run.frames[now.at] === wanted.frame && now.rendered === wanted.rendered
+            && (now.cut?.axis ?? null) === wanted.cut;
     }, { run, frame, label, colour, rendered, cut });
     await settle(page);
 }
@@ -59,8 +62,8 @@ export function roundings(recorded, many) {
     return many * Math.max(...recorded.map(Math.abs)) * 2 ** -24;
 }
 
-// The rendered surface is drawn where the tets carry it: half a step of each corner times the absolute weights. The record, the weights,
-// the corners, four products and four sums are rounded.
+// The rendered surface is drawn where the tets carry it: half a step of each corner times the absolute weights. The
+// record, the weights, the corners, four products and four sums are rounded.
 export async function assert_carried({ skin_m, positions_m }) {
     const { step_m, points, largest_sum } = await page.evaluate(() => {
         const { step_m: step, surface } = window.viewer.viewer.run;

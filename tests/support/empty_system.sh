@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# empty_system.sh RELEASE FOLDER: runs ./reproduce and ./check as a new user does, in a fresh clone on an empty Debian RELEASE (bookworm,
-# trixie), in a chroot that debootstrap makes below FOLDER. FOLDER/RELEASE keeps what they print and repeated.json. The exit status is that
-# of the first that fails. It needs root, 10 GB of disk and an hour on two cores. The proxy of apt and the certificates are this machine's.
+# empty_system.sh RELEASE FOLDER: runs ./reproduce and ./check as a new user does, in a fresh clone on an empty Debian
+# RELEASE (bookworm, trixie), in a chroot that debootstrap makes below FOLDER. FOLDER/RELEASE keeps what they print and
+# repeated.json. The exit status is that of the first that fails. It needs root, 10 GB of disk and an hour on two cores.
+# The proxy of apt and the certificates are this machine's.
 # shellcheck disable=SC2016  # $0 is for the inner shell
 set -euo pipefail
 release=$1 kept=$(realpath -m "$2/$1")
@@ -10,12 +11,16 @@ root=$kept/root
 rm -rf "$kept"
 mkdir -p "$root"
 trap 'rm -rf "$root"' EXIT
-debootstrap --variant=minbase "$release" "$root" >"$kept/debootstrap.txt" 2>&1 || { tail -n 1 "$kept/debootstrap.txt" >&2; exit 2; }
+if ! debootstrap --variant=minbase "$release" "$root" >"$kept/debootstrap.txt" 2>&1; then
+    tail -n 1 "$kept/debootstrap.txt" >&2
+    exit 2
+fi
 cp -r /etc/apt/apt.conf.d "$root/etc/apt/"
 cp /etc/ssl/certs/ca-certificates.crt "$root/certificates.crt"
 git clone --quiet "$(realpath "$(dirname "$0")/../..")" "$root/root/pbskin"
 
-# The mounts are in a namespace of their own, which ends with its processes: nothing of this machine is mounted when the folder is removed.
+# The mounts are in a namespace of their own, which ends with its processes: nothing of this machine is mounted when the
+# folder is removed.
 status=0
 unshare --mount --pid --fork bash -euo pipefail -c '
     mount --bind /dev "$0/dev"

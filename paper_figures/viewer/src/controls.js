@@ -1,7 +1,9 @@
-// The bars above the panels: run, time, colouring, cut, skeleton. Every control is a native one, with a name for screen readers.
+// The bars above the panels: run, time, colouring, cut, skeleton. Every control is a native one, with a name for screen
+// readers.
 import { colourings, draws_surface, no_surface_because } from "./state.js";
 
-export const colour_names = { skin: "skin", error: "difference", contact: "contact", ratio: "volume ratio", inverted: "inverted tets" };
+export const colour_names = { skin: "skin", error: "difference", contact: "contact", ratio: "volume ratio",
+                              inverted: "inverted tets" };
 
 const what_rendered_does = "show the rendered surface in place of the tets' boundary";
 const cut_names = [["", "no cut"], ["x", "across x"], ["y", "across y"], ["z", "across z"]];
@@ -12,11 +14,13 @@ export class Controls {
         this.play = button("\u25b6 play", "play the frames", actions.play);
         this.time = slider("frame", actions.at);
         this.clock = element("output", { class: "vw-time" });
-        this.colours = colourings.map((name) => button(colour_names[name], `colour by ${colour_names[name]}`, () => actions.colour(name)));
+        this.colours = colourings.map((name) => button(colour_names[name], `colour by ${colour_names[name]}`,
+                                                       () => actions.colour(name)));
         this.rendered = button("rendered skin", what_rendered_does, actions.rendered);
         this.bones = button("bones", "show the skeleton", actions.bones);
         this.follow = button("follow", "the camera follows the body", actions.follow);
-        this.shifting = button("two fingers shift", "two fingers shift the view instead of turning it", actions.shifting);
+        this.shifting = button("two fingers shift", "two fingers shift the view instead of turning it",
+                               actions.shifting);
         this.shifting.classList.add("vw-fingers");
         this.axis = select("cut the tets by a plane", cut_names, actions.cut_axis);
         this.cut_at = slider("where the cut is, in the body at rest", actions.cut_at);
@@ -28,10 +32,13 @@ export class Controls {
         this.link = button("copy link", "copy a link that opens this view again", actions.link);
         const fewer = button("\u2212", "one panel fewer", () => actions.panels(-1));
         const more = button("+", "one panel more", () => actions.panels(1));
-        this.first_bar = element("div", { class: "vw-bars" }, this.play, this.time, this.clock, group("colour", ...this.colours));
+        this.first_bar = element("div", { class: "vw-bars" }, this.play, this.time, this.clock,
+                                 group("colour", ...this.colours));
         this.other_bars = [
-            element("div", { class: "vw-bars" }, group("run", this.run), back, on, group("panels", fewer, more), this.link),
-            element("div", { class: "vw-bars" }, group("show", this.rendered, this.bones, this.follow, this.shifting, first_view),
+            element("div", { class: "vw-bars" }, group("run", this.run), back, on, group("panels", fewer, more),
+                    this.link),
+            element("div", { class: "vw-bars" }, group("show", this.rendered, this.bones, this.follow, this.shifting,
+                                                       first_view),
                     group("cut", this.axis, this.cut_at, this.side, this.cut_text)),
         ];
     }
@@ -65,7 +72,8 @@ export class Controls {
         const [low, high] = run.rest_range(cut.axis);
         Object.assign(this.cut_at, { min: low, max: high, step: (high - low) / 100 });
         this.cut_at.value = cut.at_m;
-        this.cut_text.textContent = `${cut.axis} ${cut.above ? ">" : "\u2264"} ${Number(cut.at_m.toPrecision(3))} m at rest`;
+        this.cut_text.textContent =
+            `${cut.axis} ${cut.above ? ">" : "\u2264"} ${Number(cut.at_m.toPrecision(3))} m at rest`;
     }
 }
 
@@ -95,7 +103,8 @@ export function button(text, name, on_press) {
 }
 
 export function slider(name, on_move) {
-    return element("input", { type: "range", "aria-label": name, oninput: (event) => on_move(Number(event.target.value)) });
+    return element("input",
+                   { type: "range", "aria-label": name, oninput: (event) => on_move(Number(event.target.value)) });
 }
 
 export function group(name, ...children) {

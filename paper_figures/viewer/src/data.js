@@ -1,5 +1,5 @@
-// The recorded runs of the page: header (JSON) and block (base64, gzip), which are read once, and the decoding of their bytes, which
-// viewer/data.py encodes: positions on a grid, volume ratios, float32 bone ends.
+// The recorded runs of the page: header (JSON) and block (base64, gzip), which are read once, and the decoding of their
+// bytes, which viewer/data.py encodes: positions on a grid, volume ratios, float32 bone ends.
 
 export async function read_page() {
     const header = JSON.parse(document.getElementById("viewer-header").textContent);
@@ -20,10 +20,12 @@ export class Run {
         Object.assign(this, rest, { block, bone_names: bones.names, surface: surface && {
             points: surface.points, largest_sum: surface.largest_sum, of_joints: surface.of_joints,
             corners: new Uint32Array(block, surface.corners, 3 * surface.triangles),
-            tets: new Uint32Array(block, surface.tets, surface.points), shares: new Float32Array(block, surface.shares, 4 * surface.points),
+            tets: new Uint32Array(block, surface.tets, surface.points),
+            shares: new Float32Array(block, surface.shares, 4 * surface.points),
         } });
         this.corners = new Uint32Array(block, header.tet_corners, 4 * header.tets);
-        this.rest = positions_of(new Uint16Array(block, header.rest_codes, 3 * header.vertices), header.rest_low_m, header.rest_step_m);
+        this.rest = positions_of(new Uint16Array(block, header.rest_codes, 3 * header.vertices), header.rest_low_m,
+                                 header.rest_step_m);
         this.bone_ends = new Float32Array(block, bones.ends, 6 * bones.names.length * header.frames.length);
         this.labels = header.deformers.map((deformer) => deformer.label);
         this.codes = new Map();
@@ -52,14 +54,15 @@ export class Run {
         return rendered ? carried(this.surface, this.corners, positions) : positions;
     }
 
-    // The codes of contact of the points that are drawn: 0 none, 1 touching, more: overlap in steps. A point of the rendered surface has
-    // the highest code of its tet's corners. Null if the frames were written without.
+    // The codes of contact of the points that are drawn: 0 none, 1 touching, more: overlap in steps. A point of the
+    // rendered surface has the highest code of its tet's corners. Null if the frames were written without.
     contact_codes(label, at, rendered) {
         const { contact } = this.deformer(label);
         if (contact === undefined) return null;
         const codes = new Uint8Array(this.block, contact + at * this.vertices, this.vertices);
         if (!rendered) return codes;
-        return Uint8Array.from(this.surface.tets, (tet) => Math.max(...this.corners.subarray(4 * tet, 4 * tet + 4).map((v) => codes[v])));
+        return Uint8Array.from(this.surface.tets,
+                               (tet) => Math.max(...this.corners.subarray(4 * tet, 4 * tet + 4).map((v) => codes[v])));
     }
 
     has_contact() {
@@ -121,7 +124,8 @@ export class Run {
     // The frame that is played after this one: one with a solution of the reference, if that has two or more.
     played_after(at) {
         const places = this.frames.map((_, place) => place);
-        const solved = this.labels.includes(this.reference) ? places.filter((place) => this.reached(this.reference, place)) : places;
+        const solved = this.labels.includes(this.reference)
+            ? places.filter((place) => this.reached(this.reference, place)) : places;
         const played = solved.length > 1 ? solved : places;
         return played.find((place) => place > at) ?? played[0];
     }
@@ -145,7 +149,8 @@ export class Run {
     // The height of the ground [m]: the lowest point of the reference, or else of the first deformer, in any frame.
     ground_m() {
         this.ground ??= this.frames.reduce((lowest, _, at) => {
-            const positions = this.positions(this.labels.includes(this.reference) ? this.reference : this.labels[0], at);
+            const positions = this.positions(this.labels.includes(this.reference) ? this.reference : this.labels[0],
+                                             at);
             for (let i = 1; i < positions.length; i += 3) lowest = Math.min(lowest, positions[i]);
             return lowest;
         }, Infinity);
@@ -180,8 +185,9 @@ export function ratio_of(code, steps) {
 export function distances_mm(positions, reference, mm_per_m) {
     const distances = new Float32Array(positions.length / 3);
     for (let v = 0; v < distances.length; ++v)
-        distances[v] = mm_per_m * Math.hypot(positions[3 * v] - reference[3 * v], positions[3 * v + 1] - reference[3 * v + 1],
-                                         positions[3 * v + 2] - reference[3 * v + 2]);
+        distances[v] = mm_per_m * Math.hypot(positions[3 * v] - reference[3 * v],
+                                             positions[3 * v + 1] - reference[3 * v + 1],
+                                             positions[3 * v + 2] - reference[3 * v + 2]);
     return distances;
 }
 

@@ -1,6 +1,7 @@
 // The faces of a tet mesh, which are visible if only some tets are kept, the normals of a surface, and its shadow.
 
-const face_corners = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];  // face i is opposite corner i; outwards for positive volumes
+// Face i is opposite corner i; outwards for positive volumes.
+const face_corners = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 // The tet behind each face, 4 x tets; -1 if there is none.
 export function neighbours_of(corners) {
@@ -51,7 +52,8 @@ export function triangles_of(corners, faces) {
     return Uint32Array.from(faces.flatMap((face) => face_of(corners, face)));
 }
 
-// Normals (not normalised) at the vertices of a surface, weighted by the areas of the triangles; x y z of each vertex of the mesh.
+// Normals (not normalised) at the vertices of a surface, weighted by the areas of the triangles; x y z of each vertex
+// of the mesh.
 export function vertex_normals(positions, triangles) {
     const normals = new Float32Array(positions.length);
     for (let at = 0; at < triangles.length; at += 3) {
@@ -68,8 +70,8 @@ export function area_normal(p, a, b, c) {
     return [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
 }
 
-// The soft shadow of points on the ground below them: one byte per cell of the square around (x, z), row by row. A point counts less the
-// higher it is.
+// The soft shadow of points on the ground below them: one byte per cell of the square around (x, z), row by row. A
+// point counts less the higher it is.
 export const cells = 64;
 const passes = 2;
 
@@ -78,9 +80,11 @@ export function shadow_of(points, x, z, height_m, half_m) {
     const cell_of = (away) => Math.floor((away / half_m + 1) / 2 * cells), is_in = (cell) => cell >= 0 && cell < cells;
     for (let i = 0; i < points.length; i += 3) {
         const across = cell_of(points[i] - x), along = cell_of(points[i + 2] - z);
-        if (is_in(across) && is_in(along)) above[along * cells + across] += 1 / (1 + 4 * Math.max(0, points[i + 1] - height_m) / half_m);
+        if (is_in(across) && is_in(along))
+            above[along * cells + across] += 1 / (1 + 4 * Math.max(0, points[i + 1] - height_m) / half_m);
     }
-    const covered = above.filter((value) => value > 0), usual = covered.reduce((a, b) => a + b, 0) / (covered.length || 1);
+    const covered = above.filter((value) => value > 0),
+        usual = covered.reduce((a, b) => a + b, 0) / (covered.length || 1);
     for (let pass = 0; pass < passes; ++pass) above = blurred(blurred(above, 1), cells);
     return Uint8Array.from(above, (value) => 255 * (1 - Math.exp(-value / (usual || 1))));
 }

@@ -1,4 +1,5 @@
-// The ground under a body, with its soft shadow: how much of the body is above each place, less for what is high above it.
+// The ground under a body, with its soft shadow: how much of the body is above each place, less for what is high above
+// it.
 import { DataTexture, LinearFilter, Mesh, PlaneGeometry, RedFormat, ShaderMaterial, Vector2 } from "three";
 import { cells, shadow_of } from "./faces.js";
 import fragment_shader from "./ground.frag.glsl";
@@ -16,9 +17,10 @@ export class Ground {
         this.texels = new Uint8Array(cells * cells);
         this.texture = new DataTexture(this.texels, cells, cells, RedFormat);
         Object.assign(this.texture, { magFilter: LinearFilter, minFilter: LinearFilter, unpackAlignment: 1 });
-        this.material = new ShaderMaterial({ vertexShader: vertex_shader, fragmentShader: fragment_shader, depthWrite: false, uniforms: {
-            shadow: { value: this.texture }, centre: { value: new Vector2() }, half_m: { value: 1 }, step_m: { value: 1 },
-            paper: { value: null }, shade: { value: null } } });
+        const uniforms = { shadow: { value: this.texture }, centre: { value: new Vector2() }, half_m: { value: 1 },
+                           step_m: { value: 1 }, paper: { value: null }, shade: { value: null } };
+        this.material = new ShaderMaterial({ vertexShader: vertex_shader, fragmentShader: fragment_shader,
+                                             depthWrite: false, uniforms });
         this.mesh = new Mesh(new PlaneGeometry(2, 2).rotateX(-Math.PI / 2), this.material);
         this.mesh.renderOrder = -1;
         this.mesh.frustumCulled = false;

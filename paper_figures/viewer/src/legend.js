@@ -16,7 +16,8 @@ export function shade_of(shades, low, high, value) {
 
 // The page's tables, parsed.
 export function palette_of(colours) {
-    return { ratio: { ...colours.ratio, shades: colours.ratio.shades.map(rgb_of) }, error: { shades: colours.error.shades.map(rgb_of) },
+    return { ratio: { ...colours.ratio, shades: colours.ratio.shades.map(rgb_of) },
+             error: { shades: colours.error.shades.map(rgb_of) },
              contact: { touching: rgb_of(colours.contact.touching), shades: colours.contact.shades.map(rgb_of) },
              skin: rgb_of(colours.skin), inverted: rgb_of(colours.inverted) };
 }
@@ -24,7 +25,8 @@ export function palette_of(colours) {
 // The colour of a tet for each code.
 export function ratio_shades(palette, steps) {
     const { low, high, shades } = palette.ratio;
-    return Array.from({ length: 256 }, (_, code) => code === 0 ? palette.inverted : shade_of(shades, low, high, ratio_of(code, steps)));
+    return Array.from({ length: 256 },
+                      (_, code) => code === 0 ? palette.inverted : shade_of(shades, low, high, ratio_of(code, steps)));
 }
 
 // Three significant digits; a dash if nothing is recorded.
@@ -43,7 +45,8 @@ export function signed(value) {
 const what = {
     skin: "plain skin: the boundary of the tets, smoothly shaded",
     ratio: "volume ratio of a tet, deformed over rest [1]",
-    error: "distance of a vertex from the reference [mm on a body of 1.7 m]; one in a hundred is farther than the scale",
+    error: "distance of a vertex from the reference [mm on a body of 1.7 m]; one in a hundred is farther than the "
+        + "scale",
     contact: "depth of the skin in other flesh [mm], and skin that touches other skin",
     inverted: "inverted tets, volume ratio \u2264 0; the rest of the body is seen through",
 };
@@ -51,7 +54,8 @@ const what = {
 const on_the_surface = {
     ...what, skin: "the rendered surface, carried by the tets",
     ratio: "volume ratio of the tet that carries the skin there, deformed over rest [1]",
-    error: "distance of the skin from the reference [mm on a body of 1.7 m]; one in a hundred vertices is farther than the scale",
+    error: "distance of the skin from the reference [mm on a body of 1.7 m]; one in a hundred vertices is farther than "
+        + "the scale",
 };
 
 export function draw_legend(place, { colours }, run, state) {
@@ -60,7 +64,8 @@ export function draw_legend(place, { colours }, run, state) {
         skin: () => [swatch(colours.skin, "skin")],
         ratio: () => [bar(shades, [low, (low + high) / 2, high]), swatch(colours.inverted, "inverted")],
         error: () => [bar(colours.error.shades, [0, most / 2, most])],
-        contact: () => [bar(colours.contact.shades, [0, run.deepest_mm / 2, run.deepest_mm]), swatch(colours.contact.touching, "touching")],
+        contact: () => [bar(colours.contact.shades, [0, run.deepest_mm / 2, run.deepest_mm]),
+                        swatch(colours.contact.touching, "touching")],
         inverted: () => [swatch(colours.inverted, "inverted")],
     };
     const caption = (draws_surface(run, state) ? on_the_surface : what)[state.colour] + without_errors(run, state);
@@ -71,12 +76,15 @@ export function draw_legend(place, { colours }, run, state) {
 function without_errors(run, { colour, panels, at }) {
     const grey = colour === "error" ? panels.filter((label) => !run.has_errors(label, at)) : [];
     if (grey.length && !run.labels.includes(run.reference)) return "; grey: no distance, for this run has no FEM";
-    return grey.length ? `; grey: no distance, for ${grey.length === panels.length ? "FEM" : "it"} did not reach this frame's pose` : "";
+    return grey.length
+        ? `; grey: no distance, for ${grey.length === panels.length ? "FEM" : "it"} did not reach this frame's pose`
+        : "";
 }
 
 function bar(shades, numbers) {
     return element("span", { class: "vw-bar" },
-                   element("span", { class: "vw-strip", style: `background: linear-gradient(to right, ${shades.join(", ")})` }),
+                   element("span",
+                           { class: "vw-strip", style: `background: linear-gradient(to right, ${shades.join(", ")})` }),
                    element("span", { class: "vw-marks" },
                            ...numbers.map((number) => element("span", { "data-value": number }, shown(number)))));
 }
@@ -92,30 +100,34 @@ const lines = [
     { column: "j_min", name: "smallest ratio", unit: "", text: shown },
     { column: "error_joint_pct", name: "error at joints", unit: "%", text: shown },
     { column: "skin_rms_mm", name: "distance of the skin, rms", unit: "mm", text: shown },
-    { column: "error_linf_m", name: "largest distance", unit: "mm", text: (value, run) => shown(value && run.mm_per_m * value) },
+    { column: "error_linf_m", name: "largest distance", unit: "mm",
+      text: (value, run) => shown(value && run.mm_per_m * value) },
 ];
 
 // The numbers of the frame that come first: the distance of the skin from the reference and the volume.
 export function first_numbers(run, label, at) {
     const away_mm = run.has_errors(label, at) ? run.figure(label, "skin_rms_mm", at) : null;
     const volume_pct = run.figure(label, "volume_change_pct", at);
-    const parts = [label === run.reference ? "the reference" : away_mm === null ? "" : `${shown(away_mm)}\u202fmm from the reference`,
+    const parts = [label === run.reference ? "the reference" : away_mm === null ? ""
+                   : `${shown(away_mm)}\u202fmm from the reference`,
                    volume_pct === null ? "" : `volume ${signed(volume_pct)}\u202f%`];
     return parts.filter(Boolean).join(", ");
 }
 
 export function draw_figures(place, run, label, at) {
     const is_reference = label === run.reference;
-    place.replaceChildren(...lines.filter(({ column }) => run.has_figure(column)).flatMap(({ column, name, unit, text }) => {
-        const value = run.figure(label, column, at), is_error = /^error|^skin/.test(column);
-        const mark = is_error && run.masked_share_pct(at) > 0 ? " *" : "";
-        const recorded = text(value, run) + (unit && value !== null ? `\u202f${unit}` : "") + mark;
-        return [element("dt", {}, name), element("dd", { "data-column": column, "data-value": value ?? "" },
-                                                 is_reference && is_error ? "reference" : recorded)];
-    }));
+    place.replaceChildren(...lines.filter(({ column }) => run.has_figure(column))
+                              .flatMap(({ column, name, unit, text }) => {
+const value = run.figure(label, column, at), is_error = /^error|^skin/.test(column);
+const mark = is_error && run.masked_share_pct(at) > 0 ? " *" : "";
+const recorded = text(value, run) + (unit && value !== null ? `\u202f${unit}` : "") + mark;
+return [element("dt", {}, name), element("dd", { "data-column": column, "data-value": value ?? "" },
+is_reference && is_error ? "reference" : recorded)];
+}));
 }
 
-// Notes on the frame that is shown: the kind of FEM, the number of stored frames, their rounding, and the origin of the body.
+// Notes on the frame that is shown: the kind of FEM, the number of stored frames, their rounding, and the origin of the
+// body.
 const locking = "The FEM shown has linear elements (P1), which lock: they are stiffer than the material. The study "
     + "work_precision measures how far they are from quadratic ones, and the reference\u2019s own error. ";
 
@@ -126,17 +138,18 @@ export function note_of(run, every, at) {
     const kept = every === 1 ? "every recorded frame" : `one in ${every} recorded frames`;
     const step_um = shown(1e6 * run.step_m);
     const of_reference = run.labels.includes(run.reference) ? locking : "";
-    return `${mark}${of_reference}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are rounded to steps of `
-        + `${step_um} \u00b5m: each coordinate of a vertex is within half a step of the record's; volume ratios to 1/127 up to 2; `
-        + "the numbers are the records' own. Millimetres are those of a body whose largest extent is 1.7 m. A cut goes through the body at "
-        + "rest, so that every panel and frame shows the same tets. "
-        + run.rights;
+    return `${mark}${of_reference}${run.vertices} vertices, ${run.tets} tets${carried_by(run)}; ${kept}. Positions are `
+        + `rounded to steps of ${step_um} \u00b5m: each coordinate of a vertex is within half a step of the record's; `
+        + "volume ratios to 1/127 up to 2; the numbers are the records' own. Millimetres are those of a body whose "
+        + "largest extent is 1.7 m. A cut goes through the body at rest, so that every panel and frame shows the same "
+        + `tets. ${run.rights}`;
 }
 
 function carried_by({ surface, step_m }) {
     if (!surface) return "";
     const within_um = Math.ceil(0.5e6 * step_m * surface.largest_sum);
     const points = `, which carry the ${surface.points} points of the rendered surface`;
-    const left_out = surface.of_joints ? `; ${surface.of_joints} of these points follow joints without flesh, and are not drawn here` : "";
+    const left_out = surface.of_joints
+        ? `; ${surface.of_joints} of these points follow joints without flesh, and are not drawn here` : "";
     return `${points}, each coordinate within ${within_um} \u00b5m of the record's${left_out}`;
 }

@@ -2,7 +2,8 @@
 //
 //   viewer.data.runs                     the recorded runs, see data.js
 //   viewer.state.now, viewer.state.set   the state, see state.js; set({ at: 3, colour: "error" })
-//   viewer.drawn_positions(panel)        positions [m] as drawn, x y z of each vertex (of the rendered surface, if that is drawn);
+//   viewer.drawn_positions(panel)        positions [m] as drawn, x y z of each vertex (of the rendered surface, if that
+// is drawn);
 //                                        nan where no face is visible
 //   viewer.pixels(panel)                 red green blue alpha of a panel
 //   viewer.ready                         resolves when the first frame is drawn
@@ -26,7 +27,8 @@ class Viewer {
         this.meshes = new Meshes();
         const first = data.runs.find((run) => run.name === data.first) ?? data.runs[0];
         const colour = first.labels.includes(first.reference) ? "error" : "skin";
-        this.state = new State({ run: first.name, at: 0, panels: panels_for(first), colour, rendered: true, bones: false,
+        this.state = new State({ run: first.name, at: 0, panels: panels_for(first), colour, rendered: true,
+                                 bones: false,
                                  cut: null, claim: null, playing: false, follow: true, shifting: false });
         this.build();
         this.state.on_change((now, changed) => this.update(now, changed));
@@ -50,7 +52,8 @@ class Viewer {
         this.legend = element("div", { class: "vw-legend" });
         this.note = element("p", { class: "vw-small" });
         this.link_words = element("output", { class: "vw-small" });
-        const more = element("details", { class: "vw-more" }, element("summary", {}, "more: other runs, cut, bones, numbers, link"),
+        const more = element("details", { class: "vw-more" },
+                             element("summary", {}, "more: other runs, cut, bones, numbers, link"),
                              ...this.controls.other_bars, this.link_words, links_to(this.data.poses), this.note,
                              element("p", { class: "vw-small" }, help));
         more.addEventListener("toggle", () => this.root.classList.toggle("vw-all", more.open));
@@ -71,7 +74,9 @@ class Viewer {
     // A print shows what is on the screen; browsers leave the canvas out.
     print() {
         this.views.draw();
-        this.printed ??= this.panels_element.appendChild(element("img", { class: "vw-printed", alt: "the bodies as they are shown" }));
+        this.printed ??= this.panels_element.appendChild(element("img",
+                                                                 { class: "vw-printed",
+                                                                   alt: "the bodies as they are shown" }));
         this.printed.src = this.canvas.toDataURL();
     }
 
@@ -81,15 +86,18 @@ class Viewer {
         const title_of = ({ label, title }) => (label === this.run.reference ? "reference: FEM" : title);
         const options = this.run.deformers.map((deformer) => [deformer.label, title_of(deformer)]);
         this.panel_elements = now.panels.map((label, at) => {
-            const choose = (chosen) => this.user({ panels: now.panels.map((shown, place) => place === at ? chosen : shown) });
+            const choose = (chosen) =>
+                this.user({ panels: now.panels.map((shown, place) => place === at ? chosen : shown) });
             const choice = select(`deformer of panel ${at + 1}`, options, choose);
             choice.value = label;
             const { title, colour } = this.run.deformer(label);
-            const bar = label === this.run.reference ? "currentColor" : colour;  // black, which is not visible on a dark page
+            // Black, which is not visible on a dark page.
+            const bar = label === this.run.reference ? "currentColor" : colour;
             const name = `${title}: arrows turn, plus and minus zoom`;
             const view = element("div", { class: "vw-view", tabindex: 0, role: "application", "aria-label": name });
             const numbers = element("dl", { "aria-label": `recorded numbers of ${title}` });
-            const mark = element("p", { class: "vw-mark vw-hidden" }, "pose not reached"), first = element("p", { class: "vw-first" });
+            const mark = element("p", { class: "vw-mark vw-hidden" }, "pose not reached"),
+                first = element("p", { class: "vw-first" });
             const parts = [choice, view, mark, first, numbers];
             const whole = element("div", { class: "vw-panel", style: `border-top: 4px solid ${bar}` }, ...parts);
             this.panels_element.append(whole);
@@ -114,7 +122,8 @@ class Viewer {
             draw_figures(this.panel_elements[at].numbers, run, label, now.at);
             this.panel_elements[at].first.textContent = first_numbers(run, label, now.at);
         });
-        if (changed.has("shifting") || changed.has("run") || changed.has("panels")) this.views.two_fingers(now.shifting);
+        if (changed.has("shifting") || changed.has("run") || changed.has("panels"))
+            this.views.two_fingers(now.shifting);
         this.controls.update(run, now);
         draw_legend(this.legend, this.data, run, now);
         this.views.update(run, now, changed);
@@ -145,7 +154,8 @@ class Viewer {
         if (!now.playing) history.replaceState(null, "", hash_of({ ...now, frame: this.run.frames[now.at] }));
     }
 
-    // Shows the pose of an address; an address that only names a claim means the claim's own pose. A claim's pose shows the rendered skin.
+    // Shows the pose of an address; an address that only names a claim means the claim's own pose. A claim's pose shows
+    // the rendered skin.
     open(hash, scroll) {
         const asked = pose_of(hash);
         if (!asked) return;
@@ -154,8 +164,9 @@ class Viewer {
         const pose = { ...(asked.run ? {} : own), ...asked };
         const run = this.data.runs.find((one) => one.name === pose.run) ?? this.run;
         this.state.set({ run: run.name, at: run.place_of(pose.frame ?? 0), panels: panels_for(run, pose.panels),
-                         colour: pose.colour ?? "ratio", rendered: pose.rendered ?? Boolean(pose.claim), bones: pose.bones ?? false,
-                         cut: pose.cut ?? null, claim: pose.claim ?? null, playing: false });
+                         colour: pose.colour ?? "ratio", rendered: pose.rendered ?? Boolean(pose.claim),
+                         bones: pose.bones ?? false, cut: pose.cut ?? null, claim: pose.claim ?? null,
+                         playing: false });
         if (pose.view) this.views.see(pose.view);
         if (scroll) this.root.scrollIntoView({ block: "start" });
     }
@@ -166,7 +177,8 @@ class Viewer {
         this.state.set({ playing: false });
         history.replaceState(null, "", hash);
         this.link_words.textContent = await navigator.clipboard?.writeText(location.href)
-            .then(() => "The link to this view is copied.", () => null) ?? `The address of this page opens this view: ${location.href}`;
+            .then(() => "The link to this view is copied.", () => null)
+            ?? `The address of this page opens this view: ${location.href}`;
     }
 
     actions() {
@@ -201,14 +213,16 @@ class Viewer {
             cut: () => cut_axis(now().cut ? "" : "z"), cut_axis,
             cut_at: (at_m) => cut({ at_m }), cut_side: () => cut({ above: !now().cut.above }),
             move_cut: (by) => cut({ at_m: this.run.stepped(now().cut, by) }),
-            turn: moved((around, up) => this.views.turn(around, up)), shift: moved((right, up) => this.views.shift(right, up)),
-            zoom: moved((factor) => this.views.zoom(factor)), reset: moved(() => this.views.first(this.run, now())),
+            turn: moved((around, up) => this.views.turn(around, up)),
+            shift: moved((right, up) => this.views.shift(right, up)), zoom: moved((factor) => this.views.zoom(factor)),
+            reset: moved(() => this.views.first(this.run, now())),
         };
     }
 }
 
 function links_to(poses) {
-    const links = poses.flatMap(({ claim, what }) => [" ", element("a", { href: `#claim=${claim}`, title: what }, claim)]);
+    const links = poses.flatMap(({ claim, what }) => [" ", element("a", { href: `#claim=${claim}`, title: what },
+                                                                   claim)]);
     return element("p", { class: "vw-small vw-poses" }, links.length ? "Poses of the claims:" : "", ...links);
 }
 

@@ -1,6 +1,7 @@
-// The scene of one panel: the body (tets or rendered surface), its inverted tets, the skeleton and the ground, updated when the state
-// changes.
-import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, Mesh, Points, PointsMaterial, ShaderMaterial } from "three";
+// The scene of one panel: the body (tets or rendered surface), its inverted tets, the skeleton and the ground, updated
+// when the state changes.
+import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, Mesh, Points, PointsMaterial,
+         ShaderMaterial } from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
@@ -59,7 +60,8 @@ export class Panel {
         if (shown.colour === "inverted") return () => ghost;
         if (shown.colour === "skin") return () => palette.skin;
         if (shown.colour === "contact") {
-            const codes = run.contact_codes(label, shown.at, draws_surface(run, shown)), { touching, shades } = palette.contact;
+            const codes = run.contact_codes(label, shown.at, draws_surface(run, shown)), { touching, shades } =
+                palette.contact;
             const shade = (code) => code === 0 ? palette.skin : code === 1 ? touching :
                 shade_of(shades, 0, run.deepest_mm, (code - 2) * run.contact_step_mm);
             return (_, vertex) => codes ? shade(codes[vertex]) : ghost;
@@ -96,8 +98,8 @@ class Body {
         this.mesh.frustumCulled = false;
     }
 
-    // Sets the faces of tets that are drawn; `outer` distinguishes those of the body's surface, which are shaded smoothly, from those of
-    // the cut.
+    // Sets the faces of tets that are drawn; `outer` distinguishes those of the body's surface, which are shaded
+    // smoothly, from those of the cut.
     show_faces(corners, faces, outer) {
         this.show_triangles(triangles_of(corners, faces), Uint32Array.from(faces, (face) => face >> 2),
                             Uint8Array.from(faces, (face) => outer(face) ? 1 : 0));
@@ -117,7 +119,8 @@ class Body {
             const attribute = new BufferAttribute(new Float32Array(size * vertices.length), size);
             this.geometry.setAttribute(name, attribute.setUsage(DynamicDrawUsage));
         }
-        this.geometry.attributes.is_cut.array.forEach((_, at, all) => { all[at] = this.smooth[Math.floor(at / 3)] ? 0 : 1; });
+        this.geometry.attributes.is_cut.array.forEach((_, at, all) => { all[at] = this.smooth[Math.floor(at / 3)] ? 0
+            : 1; });
         this.geometry.setDrawRange(0, this.vertices.length);
     }
 
@@ -163,7 +166,8 @@ const dark = 0x111111;
 
 class Skeleton {
     constructor() {
-        this.lines = [[5, 0xffffff], [2.5, dark]].map(([linewidth, color]) =>  // dark on a white seam, visible on any body
+        // Dark on a white seam, visible on any body.
+        this.lines = [[5, 0xffffff], [2.5, dark]].map(([linewidth, color]) =>
             new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ color, linewidth, depthTest: false })));
         const dot = new PointsMaterial({ color: dark, size: 6, sizeAttenuation: false, depthTest: false });
         this.dots = new Points(new BufferGeometry(), dot);

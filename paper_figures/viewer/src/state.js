@@ -37,8 +37,8 @@ export function draws_surface(run, now) {
     return now.rendered && no_surface_because(run, now) === null;
 }
 
-// The panels that a run can show: the wanted ones that it has, at most four, or without any LBS, PBS and the reference, filled up to three
-// with its others in order.
+// The panels that a run can show: the wanted ones that it has, at most four, or without any LBS, PBS and the reference,
+// filled up to three with its others in order.
 export function panels_for(run, wanted = []) {
     const kept = wanted.filter((label) => run.labels.includes(label));
     if (kept.length) return [...new Set(kept)].slice(0, 4);
@@ -46,16 +46,17 @@ export function panels_for(run, wanted = []) {
     return [...new Set([...usual, ...run.labels])].slice(0, 3);
 }
 
-// The nearest and farthest distance [m] that a camera draws which is this far from the middle of a run, whose points lie within the radius:
-// both follow the size of the model, from millimetres to kilometres. Nearer than a thousandth of the farthest, depths could not be
-// distinguished.
+// The nearest and farthest distance [m] that a camera draws which is this far from the middle of a run, whose points
+// lie within the radius: both follow the size of the model, from millimetres to kilometres. Nearer than a thousandth of
+// the farthest, depths could not be distinguished.
 export function range_of_sight(distance_m, radius_m) {
     const far = distance_m + radius_m;
     return { near: Math.max(distance_m - radius_m, far / 1000), far };
 }
 
-// Plays the recorded frames in a loop, as long as they are seen: at the speed of the motion, but each for a thirtieth to a sixth of a
-// second, and the last one for half a second. Frames that the reference has no solution of are left out.
+// Plays the recorded frames in a loop, as long as they are seen: at the speed of the motion, but each for a thirtieth
+// to a sixth of a second, and the last one for half a second. Frames that the reference has no solution of are left
+// out.
 export function play(state, run_of, is_seen) {
     const shown_s = (at, next, times) => next > at ? Math.min(1 / 6, Math.max(1 / 30, times[next] - times[at])) : 0.5;
     const run = (since) => requestAnimationFrame((time) => {
@@ -69,7 +70,8 @@ export function play(state, run_of, is_seen) {
 }
 
 // A pose as text in the address:
-// #run=human_jump&frame=12&colour=error&panels=lbs,dqs,pbs,nh_p1&surface=rendered&cut=x,0.1,below&bones=1&view=24,83,1.2,0,0,0&claim=C02
+// #run=human_jump&frame=12&colour=error&panels=lbs,dqs,pbs,nh_p1&surface=rendered&cut=x,0.1,below&bones=1
+//     &view=24,83,1.2,0,0,0&claim=C02
 // view: the camera's direction [degrees], its distance and its shift, see Views.seen
 export const colourings = ["skin", "error", "contact", "ratio", "inverted"];
 
@@ -92,8 +94,11 @@ export function pose_of(hash) {
 }
 
 export function hash_of(pose) {
-    const words = [`run=${pose.run}`, `frame=${pose.frame}`, `colour=${pose.colour}`, `panels=${pose.panels.join(",")}`];
-    if (pose.cut) words.push(`cut=${pose.cut.axis},${Number(pose.cut.at_m.toPrecision(4))},${pose.cut.above ? "above" : "below"}`);
+    const words = [`run=${pose.run}`, `frame=${pose.frame}`, `colour=${pose.colour}`,
+                   `panels=${pose.panels.join(",")}`];
+    if (pose.cut)
+        words.push(
+            `cut=${pose.cut.axis},${Number(pose.cut.at_m.toPrecision(4))},${pose.cut.above ? "above" : "below"}`);
     if (pose.rendered) words.push("surface=rendered");
     if (pose.bones) words.push("bones=1");
     if (pose.view) words.push(`view=${pose.view.map((number) => Number(number.toPrecision(4))).join(",")}`);
@@ -103,5 +108,6 @@ export function hash_of(pose) {
 
 function cut_of(text) {
     const [axis, at_m, side] = text.split(",");
-    return /^[xyz]$/.test(axis) && Number.isFinite(Number(at_m)) ? { axis, at_m: Number(at_m), above: side === "above" } : null;
+    return /^[xyz]$/.test(axis) && Number.isFinite(Number(at_m)) ? { axis, at_m: Number(at_m), above: side === "above" }
+        : null;
 }

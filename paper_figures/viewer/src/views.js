@@ -1,6 +1,7 @@
-// Draws all panels with one WebGL context: each canvas shows a scissored part, one camera serves all, and every panel has controls. The
-// camera points at the body of the first frame, and later follows its motion.
-import { Color, ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, Spherical, TOUCH, Vector3, WebGLRenderer } from "three";
+// Draws all panels with one WebGL context: each canvas shows a scissored part, one camera serves all, and every panel
+// has controls. The camera points at the body of the first frame, and later follows its motion.
+import { Color, ColorManagement, LinearSRGBColorSpace, PerspectiveCamera, Scene, Spherical, TOUCH, Vector3,
+         WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { keep_level, leave_scrolling } from "./input.js";
 import { range_of_sight } from "./state.js";
@@ -51,8 +52,8 @@ export class Views {
         for (const { controls } of this.views) controls.touches = touches;
     }
 
-    // Points the camera at the middle of what it sees of a cloud of points around this middle [m], at a distance from which all are in the
-    // panel.
+    // Points the camera at the middle of what it sees of a cloud of points around this middle [m], at a distance from
+    // which all are in the panel.
     look_at(middle, cloud) {
         const right = new Vector3(first_direction.z, 0, -first_direction.x).normalize();
         const up = new Vector3().crossVectors(first_direction, right);
@@ -60,7 +61,9 @@ export class Views {
         const shift = new Vector3();
         for (const axis of [right, up]) {
             const along = cloud.map((point) => point.dot(axis));
-            shift.addScaledVector(axis, along.reduce((a, b) => Math.min(a, b)) / 2 + along.reduce((a, b) => Math.max(a, b)) / 2);
+            shift.addScaledVector(axis,
+                                  along.reduce((a, b) => Math.min(a, b)) / 2 + along.reduce((a, b) => Math.max(a, b))
+                                  / 2);
         }
         const distances = cloud.map((point) => point.clone().sub(shift)).map((point) => point.dot(first_direction)
             + Math.max(Math.abs(point.dot(up)), Math.abs(point.dot(right)) / aspect) / slope);
@@ -92,7 +95,8 @@ export class Views {
         this.look_at(this.middle, cloud_of(run, now.panels[0]));
     }
 
-    // After a change of the panels' width, the camera is as far from its target in parts of the first distance as before.
+    // After a change of the panels' width, the camera is as far from its target in parts of the first distance as
+    // before.
     fit_again(run, now) {
         const seen = this.seen();
         this.look_at(this.middle, cloud_of(run, now.panels[0]));
@@ -104,16 +108,18 @@ export class Views {
         this.camera.position.add(step);
     }
 
-    // The camera relative to the target: direction around and from above [degrees] and distance, in parts of the first one; then the shift
-    // of the target from the body's middle [m].
+    // The camera relative to the target: direction around and from above [degrees] and distance, in parts of the first
+    // one; then the shift of the target from the body's middle [m].
     seen() {
         const { theta, phi, radius } = new Spherical().setFromVector3(this.camera.position.clone().sub(this.target));
-        return [theta * 180 / Math.PI, phi * 180 / Math.PI, radius / this.first_distance, ...this.target.clone().sub(this.middle)];
+        return [theta * 180 / Math.PI, phi * 180 / Math.PI, radius / this.first_distance,
+                ...this.target.clone().sub(this.middle)];
     }
 
     see([around_deg, down_deg, distance, ...shift]) {
         this.target.copy(this.middle).add(new Vector3(...shift));
-        const from = new Spherical(distance * this.first_distance, down_deg * Math.PI / 180, around_deg * Math.PI / 180);
+        const from = new Spherical(distance * this.first_distance, down_deg * Math.PI / 180,
+                                   around_deg * Math.PI / 180);
         this.camera.position.setFromSpherical(from).add(this.target);
         this.camera.lookAt(this.target);
     }
@@ -140,7 +146,8 @@ export class Views {
 
     // Left, bottom, width and height of a panel in the canvas.
     part_of(element) {
-        const whole = this.renderer.domElement.parentElement.getBoundingClientRect(), box = element.getBoundingClientRect();
+        const whole = this.renderer.domElement.parentElement.getBoundingClientRect(),
+            box = element.getBoundingClientRect();
         return [box.left - whole.left, whole.bottom - box.bottom, box.width, box.height];
     }
 
@@ -184,7 +191,8 @@ function middle_of(run, at) {
     return sum.divideScalar(ends.length / 3);
 }
 
-// Some points of the body relative to its middle [m] in all frames of the run, enough to determine the space that it takes.
+// Some points of the body relative to its middle [m] in all frames of the run, enough to determine the space that it
+// takes.
 function cloud_of(run, label) {
     const points = [];
     for (let at = 0; at < run.frames.length; ++at) {

@@ -1,4 +1,5 @@
-// Reference: the records of the trial. Its page shows the sentence, the warnings, and the model's own surface as each deformer moves it.
+// Reference: the records of the trial. Its page shows the sentence, the warnings, and the model's own surface as each
+// deformer moves it.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { page, settle, test_figures_on_a_phone, test_that_nothing_was_reported } from "../browser.mjs";
@@ -45,14 +46,17 @@ for (const sample of truth.samples) {
     test(`the surface is where ${label} moves it in frame ${frame}`, async () => {
         await show(label, frame);
         await assert_carried(sample);
-        if (pictures) await page.locator("#frame-viewer").screenshot({ path: `${pictures}/trial_${label}_${frame}.png` });
+        if (pictures) await page.locator("#frame-viewer")
+            .screenshot({ path: `${pictures}/trial_${label}_${frame}.png` });
     });
 }
 
-// A ball of the tube's thickness at the far end of the run's sphere covers this share of a panel. The tube is as thick and longer.
+// A ball of the tube's thickness at the far end of the run's sphere covers this share of a panel. The tube is as thick
+// and longer.
 function least_share() {
     return page.evaluate(() => {
-        const { views, run } = window.viewer.viewer, { camera, sphere: { middle, radius } } = views, [low, high] = run.rest_range("y");
+        const { views, run } = window.viewer.viewer, { camera, sphere: { middle, radius } } = views,
+            [low, high] = run.rest_range("y");
         const height_m = 2 * (camera.position.distanceTo(middle) + radius) * Math.tan(camera.fov / 2 * Math.PI / 180);
         return Math.PI * ((high - low) / 2 / height_m) ** 2 / views.aspect();
     });
@@ -69,7 +73,8 @@ test("the moving body is in the picture from the first view, near by and from af
             await show("pbs", frame);
             const { drawn } = await colours_of(0);
             const least = await least_share();
-            assert.ok(drawn > least, `${factor} times the distance: ${drawn} of the pixels in frame ${frame}, at least ${least}`);
+            assert.ok(drawn > least,
+                      `${factor} times the distance: ${drawn} of the pixels in frame ${frame}, at least ${least}`);
         }
     }
     await page.evaluate(() => window.viewer.viewer.actions().reset());

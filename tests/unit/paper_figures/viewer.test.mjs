@@ -1,14 +1,17 @@
-// Reference: the definition of the packed bytes in viewer/data.py, by hand; an affine map preserves barycentric coordinates, inside a tet
-// and outside. The faces of a closed surface enclose the body's volume and point outwards. The page handles gestures with one finger, the
-// view those with two. An address and the view represent each other; an address of other origin is left alone.
+// Reference: the definition of the packed bytes in viewer/data.py, by hand; an affine map preserves barycentric
+// coordinates, inside a tet and outside. The faces of a closed surface enclose the body's volume and point outwards.
+// The page handles gestures with one finger, the view those with two. An address and the view represent each other; an
+// address of other origin is left alone.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Run, carried, codes_of, distances_mm, positions_of, ratio_of } from "../../../paper_figures/viewer/src/data.js";
+import { Run, carried, codes_of, distances_mm, positions_of,
+         ratio_of } from "../../../paper_figures/viewer/src/data.js";
 import {
     area_normal, face_of, kept_by, neighbours_of, seen_faces, shadow_of, triangles_of, vertex_normals,
 } from "../../../paper_figures/viewer/src/faces.js";
 import { keep_level, leave_scrolling } from "../../../paper_figures/viewer/src/input.js";
-import { first_numbers, palette_of, ratio_shades, rgb_of, shade_of, shown, signed } from "../../../paper_figures/viewer/src/legend.js";
+import { first_numbers, palette_of, ratio_shades, rgb_of, shade_of, shown,
+         signed } from "../../../paper_figures/viewer/src/legend.js";
 import {
     State, draws_surface, hash_of, no_surface_because, panels_for, pose_of, range_of_sight,
 } from "../../../paper_figures/viewer/src/state.js";
@@ -20,7 +23,8 @@ test("frames are sums of differences modulo 65536", () => {
 });
 
 test("a position is its axis's low corner and so many steps", () => {
-    assert.deepEqual([...positions_of(Uint16Array.from([0, 2, 4, 65535, 0, 0]), [-1, 1, 0], 0.5)], [-1, 2, 2, 32766.5, 1, 0]);
+    assert.deepEqual([...positions_of(Uint16Array.from([0, 2, 4, 65535, 0, 0]), [-1, 1, 0], 0.5)],
+                     [-1, 2, 2, 32766.5, 1, 0]);
 });
 
 test("code 0 is an inverted tet, 128 a tet as at rest", () => {
@@ -30,7 +34,8 @@ test("code 0 is an inverted tet, 128 a tet as at rest", () => {
 });
 
 test("distances are in millimetres", () => {
-    assert.deepEqual([...distances_mm(Float32Array.from([0, 0, 0, 3, 0, 4]), Float32Array.from([0, 0, 0, 0, 0, 0]), 1000)], [0, 5000]);
+    assert.deepEqual([...distances_mm(Float32Array.from([0, 0, 0, 3, 0, 4]), Float32Array.from([0, 0, 0, 0, 0, 0]),
+                                      1000)], [0, 5000]);
 });
 
 const corners = Uint32Array.from([4, 0, 1, 2, 0, 1, 2, 3]);  // the second tet is the unit one
@@ -117,7 +122,8 @@ test("a scrolling that has begun is not stopped", () => assert.equal(is_kept("to
 
 test("one finger leaves the tilt as it is, two are free, and so is a mouse", () => {
     const element = new EventTarget();
-    const controls = { angle: 1, minPolarAngle: 0, maxPolarAngle: Math.PI, update() {}, getPolarAngle() { return this.angle; } };
+    const controls = { angle: 1, minPolarAngle: 0, maxPolarAngle: Math.PI, update() {},
+                       getPolarAngle() { return this.angle; } };
     keep_level(element, controls);
     const after = (change, pointerId, pointerType = "touch") => {
         element.dispatchEvent(Object.assign(new Event(change), { pointerId, pointerType }));
@@ -151,15 +157,17 @@ test("nonsense is dropped", () => {
 
 test("shades lie evenly between low and high and end there", () => {
     const shades = ["a", "b", "c"];
-    assert.deepEqual([-9, 0.5, 0.9, 1, 1.5, 9].map((value) => shade_of(shades, 0.5, 1.5, value)), ["a", "a", "b", "b", "c", "c"]);
+    assert.deepEqual([-9, 0.5, 0.9, 1, 1.5, 9].map((value) => shade_of(shades, 0.5, 1.5, value)),
+                     ["a", "a", "b", "b", "c", "c"]);
 });
 
 test("an inverted tet has the colour of its own", () => {
     const shades = ["#000000", "#808080", "#ffffff"];
-    const palette = palette_of({ ratio: { low: 0.5, high: 1.5, shades }, error: { shades }, contact: { touching: "#00ff00", shades },
-                                 skin: "#102030", inverted: "#ff0000" });
+    const palette = palette_of({ ratio: { low: 0.5, high: 1.5, shades }, error: { shades },
+                                 contact: { touching: "#00ff00", shades }, skin: "#102030", inverted: "#ff0000" });
     const of_code = ratio_shades(palette, 127);
-    assert.deepEqual([of_code[0], of_code[1], of_code[128], of_code[255]], [[1, 0, 0], [0, 0, 0], rgb_of("#808080"), [1, 1, 1]]);
+    assert.deepEqual([of_code[0], of_code[1], of_code[128], of_code[255]],
+                     [[1, 0, 0], [0, 0, 0], rgb_of("#808080"), [1, 1, 1]]);
 });
 
 test("numbers have three digits and a dash where none is on record", () => {
@@ -176,15 +184,18 @@ test("a run shows LBS, PBS and the reference, or the panels that are asked for, 
 });
 
 test("the first numbers are those of the frame; without a distance the volume alone", () => {
-    const figures = { lbs: { skin_rms_mm: 12.345, volume_change_pct: -8 }, pbs: { skin_rms_mm: null, volume_change_pct: 1 } };
-    const run = { reference: "nh_p1", has_errors: () => true, figure: (label, column) => figures[label]?.[column] ?? null };
+    const figures = { lbs: { skin_rms_mm: 12.345, volume_change_pct: -8 },
+                      pbs: { skin_rms_mm: null, volume_change_pct: 1 } };
+    const run = { reference: "nh_p1", has_errors: () => true, figure: (label, column) => figures[label]?.[column]
+                  ?? null };
     assert.equal(first_numbers(run, "lbs", 0), "12.3\u202fmm from the reference, volume \u22128\u202f%");
     assert.equal(first_numbers(run, "pbs", 0), "volume +1\u202f%");
     assert.equal(first_numbers(run, "nh_p1", 0), "the reference");
 });
 
 test("the shadow is dark under the body, and lighter under what is high above the ground", () => {
-    const low = shadow_of([0, 0, 0, 0.5, 1, 0.5], 0, 0, 0, 1), at = (x, z) => low[Math.floor((z + 1) * 32) * 64 + Math.floor((x + 1) * 32)];
+    const low = shadow_of([0, 0, 0, 0.5, 1, 0.5], 0, 0, 0, 1),
+        at = (x, z) => low[Math.floor((z + 1) * 32) * 64 + Math.floor((x + 1) * 32)];
     assert.ok(at(0, 0) > at(0.5, 0.5) && at(0.5, 0.5) > at(-0.8, -0.8));
     assert.equal(at(-0.8, -0.8), 0);
 });
@@ -193,7 +204,8 @@ test("the rendered surface is drawn where the body has one and nothing is cut", 
     const human = { surface: {} }, limb = { surface: null }, cut = { axis: "z", at_m: 0, above: false };
     assert.equal(draws_surface(human, { rendered: true, cut: null }), true);
     assert.equal(draws_surface(human, { rendered: false, cut: null }), false);
-    for (const [run, asked, why] of [[limb, null, /surface but/], [limb, cut, /surface but/], [human, cut, /while the tets are cut/]]) {
+    for (const [run, asked, why] of [[limb, null, /surface but/], [limb, cut, /surface but/],
+                                     [human, cut, /while the tets are cut/]]) {
         assert.equal(draws_surface(run, { rendered: true, cut: asked }), false);
         assert.match(no_surface_because(run, { cut: asked }), why);
     }
@@ -204,21 +216,24 @@ test("a body of any size lies within the range of sight", () => {
     for (const radius of [0.005, 1, 5000])
         for (const distance of [0, 0.5, 1.01, 6, 60].map((times) => times * radius)) {
             const { near, far } = range_of_sight(distance, radius);
-            assert.ok(near > 0 && far === distance + radius && far / near <= 1000 * (1 + Number.EPSILON), `${distance} m`);
+            assert.ok(near > 0 && far === distance + radius && far / near <= 1000 * (1 + Number.EPSILON),
+                      `${distance} m`);
             if (distance > radius) assert.ok(near === distance - radius, `${distance} m`);
         }
 });
 
 test("no distance where the deformer or the reference did not reach the frame's pose", () => {
     const deformers = [{ label: "pbs", not_reached: [1] }, { label: "nh_p1", not_reached: [2] }];
-    const run = Object.assign(Object.create(Run.prototype), { reference: "nh_p1", labels: ["pbs", "nh_p1"], deformers });
+    const run = Object.assign(Object.create(Run.prototype), { reference: "nh_p1", labels: ["pbs", "nh_p1"],
+                                                              deformers });
     assert.deepEqual([0, 1, 2].map((at) => run.reached("pbs", at)), [true, false, true]);
     assert.deepEqual([0, 1, 2].map((at) => run.has_errors("pbs", at)), [true, false, false]);
     assert.deepEqual([0, 1, 2].map((at) => run.has_errors("nh_p1", at)), [true, true, false]);
 });
 
 test("frames that the reference has no solution of are not played, and name the pose that they show", () => {
-    const deformers = [{ label: "pbs", not_reached: [] }, { label: "nh_p1", not_reached: [1, 2, 4], states: [0, 0, 0, 30, 30] }];
+    const deformers = [{ label: "pbs", not_reached: [] }, { label: "nh_p1", not_reached: [1, 2, 4],
+                                                            states: [0, 0, 0, 30, 30] }];
     const run = Object.assign(Object.create(Run.prototype),
                               { reference: "nh_p1", labels: ["pbs", "nh_p1"], deformers, frames: [0, 10, 20, 30, 40] });
     assert.deepEqual([0, 1, 2, 3, 4].map((at) => run.played_after(at)), [3, 3, 3, 0, 0]);
