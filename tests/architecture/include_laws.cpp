@@ -171,7 +171,8 @@ Violations values_compute(const SourceTree& tree)
 Violations deformers_tested_by_name(const SourceTree& tree)
 {
     static const std::regex compares(
-        R"re(\bkind(\(\))?\s*([!=]=\s*["']|(\.|->)(starts_with|ends_with|find|compare)\()|["']\s*[!=]=\s*[\w.>-]*\bkind\b)re");
+        R"re(\bkind(\(\))?\s*([!=]=\s*["']|(\.|->)(starts_with|ends_with|find|compare)\()|)re"
+        R"re(["']\s*[!=]=\s*[\w.>-]*\bkind\b)re");
     const auto concerns = [](const std::string& path) {
         return (is_cpp(path) || path.ends_with(".py")) &&
                starts_with_any(path, {"experiments/", "analysis/", "paper_figures/"}) &&

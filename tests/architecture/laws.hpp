@@ -85,7 +85,7 @@ Violations unread_tables(const SourceTree& tree);     // a table of a study's ca
 Violations package_list_form(const SourceTree& tree);
 Violations package_list_cover(const SourceTree& tree);
 
-// A function has 10 to 15 lines, 9 in 10 at most 60, none over 120; a line of source has at most 140 columns. Files
+// A function has 10 to 15 lines, 9 in 10 at most 60, none over 120; a line of source has at most 120 columns. Files
 // have no limits.
 Violations function_sizes(const SourceTree& tree);
 Violations line_lengths(const SourceTree& tree);

@@ -139,18 +139,18 @@ TEST(LawsBite, EachLayerIncludesTheNext)
     }
 }
 
-TEST(LawsBite, LineOver140Columns)
+TEST(LawsBite, LineOver120Columns)
 {
     for (const std::string path :
          {"analysis/x.cpp", "analysis/x.hpp", "tests/x.py", "cmake/x.cmake", "pbs/CMakeLists.txt", "cmake/x.sh",
           "check", "paper_figures/x.js", "tests/x.mjs", "paper_figures/x.css", "experiments/sweeps/Snakefile"})
-        EXPECT_EQ(line_lengths({{path, "\n" + std::string(141, 'x') + "\n"}}),
-                  Violations{path + ":2: 141 columns, at most 140"});
+        EXPECT_EQ(line_lengths({{path, "\n" + std::string(121, 'x') + "\n"}}),
+                  Violations{path + ":2: 121 columns, at most 120"});
     std::string umlauts;
-    for (int i = 0; i < 140; ++i) umlauts += "\u00fc";
-    EXPECT_TRUE(line_lengths({{"analysis/x.cpp", std::string(140, 'x') + "\n" + umlauts + "\n"}}).empty());
+    for (int i = 0; i < 120; ++i) umlauts += "\u00fc";
+    EXPECT_TRUE(line_lengths({{"analysis/x.cpp", std::string(120, 'x') + "\n" + umlauts + "\n"}}).empty());
     EXPECT_TRUE(
-        line_lengths({{"README.md", std::string(141, 'x')}, {"package-lock.json", std::string(141, 'x')}}).empty());
+        line_lengths({{"README.md", std::string(121, 'x')}, {"package-lock.json", std::string(121, 'x')}}).empty());
 }
 
 }  // namespace

@@ -103,9 +103,11 @@ inline GltfDocument two_joint_document()
     gltf.put<float>("VEC4", {0, 0, 0, 1, 0, 0, 1, 0});
     gltf.json.update(nlohmann::json::parse(R"({
         "scene": 0, "scenes": [{"nodes": [0, 2]}],
-        "nodes": [{"name": "root", "translation": [1, 0, 0], "children": [1]}, {"name": "elbow", "translation": [0, 2, 0]},
+        "nodes": [{"name": "root", "translation": [1, 0, 0], "children": [1]},
+                  {"name": "elbow", "translation": [0, 2, 0]},
                   {"name": "body", "mesh": 0, "skin": 0}],
-        "meshes": [{"name": "arm", "primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3}, "indices": 1}]}],
+        "meshes": [{"name": "arm", "primitives": [
+            {"attributes": {"POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3}, "indices": 1}]}],
         "skins": [{"joints": [0, 1], "inverseBindMatrices": 4}],
         "animations": [{"name": "Bend", "samplers": [{"input": 5, "output": 6}],
                         "channels": [{"sampler": 0, "target": {"node": 1, "path": "rotation"}}]}]})"));

@@ -22,16 +22,16 @@ struct BoneAttachment {
 
 // By options.attachment:
 //   smooth    springs over each capsule's volume, of density q E / r^2 times smooth_density
-//   (experiments/characters/bone_capsules.hpp) embedded  springs of density q E / r^2 over each capsule's volume held      as
-//   smooth, and stiff springs throughout the tets that one bone alone moves nodes     whole tets inside the capsules.
-//   No vertex is shared by two bones: the tet of the later bone is left out. A bone that keeps
-//             no tet (fewer than four vertices that are not in one plane) is a pbs::InputError. A refined character has
-//             the children of the tets of the unrefined one
+//             (experiments/characters/bone_capsules.hpp)
+//   embedded  springs of density q E / r^2 over each capsule's volume
+//   held      as smooth, and stiff springs throughout the tets that one bone alone moves
+//   nodes     whole tets inside the capsules. No vertex is shared by two bones: the tet of the later bone is left out.
+//             A bone that keeps no tet (fewer than four vertices that are not in one plane) is a pbs::InputError. A
+//             refined character has the children of the tets of the unrefined one
 //   bind      every vertex at its rest distance d from its rest projection on its bone: k_i = q E V_i / R^2, V_i the
-//   vertex's lumped rest
-//             volume and R the limb radius of its bone. The sum over the vertices is then the vertex rule for the
-//             integral over the flesh of q E / (2 R^2) (|x - q(X)| - d(X))^2 dV, which does not depend on the mesh. The
-//             weight is R, not d, because 1 / d^2 is not integrable at the bone
+//             vertex's lumped rest volume and R the limb radius of its bone. The sum over the vertices is then the
+//             vertex rule for the integral over the flesh of q E / (2 R^2) (|x - q(X)| - d(X))^2 dV, which does not
+//             depend on the mesh. The weight is R, not d, because 1 / d^2 is not integrable at the bone
 BoneAttachment bone_attachment(const pbs::Character& character, const FemOptions& options);
 
 // Springs of a smaller density, over that on the axis, do not grip: the flesh yields to them.

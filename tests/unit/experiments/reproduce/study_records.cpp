@@ -162,9 +162,12 @@ protected:
 TEST_F(MarkedFrames, AreBrokenOnesOverlapsAndErrorsBelowTheReferences)
 {
     EXPECT_EQ(marks_of(R"({"outcome": {"frames": 31, "broken_frames": {
-                  "pbs": [{"frame": 2, "what": "not_finite", "step": 7, "first_vertex": 17, "vertices_not_finite": 120}],
-                  "nh_p1": [{"frame": 18, "what": "inverted", "worst_tet": 812, "volume_ratio": -0.04, "inverted_tets": 3},
-                             {"frame": 19, "what": "not_converged", "worst_tet": 5, "volume_ratio": 0.5, "inverted_tets": 0}]}}})"),
+                  "pbs": [{"frame": 2, "what": "not_finite", "step": 7, "first_vertex": 17,
+                           "vertices_not_finite": 120}],
+                  "nh_p1": [{"frame": 18, "what": "inverted", "worst_tet": 812, "volume_ratio": -0.04,
+                             "inverted_tets": 3},
+                            {"frame": 19, "what": "not_converged", "worst_tet": 5, "volume_ratio": 0.5,
+                             "inverted_tets": 0}]}}})"),
               "     limb_bend: nh_p1 broke down in 2 of 31 frames (1 inverted, 1 not converged), the first inverted in "
               "frame 18: worst tet "
               "812 of volume ratio -0.04, 3 inverted\n"

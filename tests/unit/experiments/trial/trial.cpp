@@ -202,7 +202,8 @@ protected:
     TrialSummary()
     {
         folder.file("run.json", R"({"character": {"model": {"file": "hero.glb"}, "tets": 7, "vertices": 5},
-                                    "outcome": {"motion": {"largest_rotation_deg": 30.0}, "frames": 3, "warnings": ["one", "two"],
+                                    "outcome": {"motion": {"largest_rotation_deg": 30.0}, "frames": 3,
+                                                "warnings": ["one", "two"],
                                                 "notes": ["three"]}})");
         folder.file("bones_rest.csv", "bone,parent\nhips,\nknee,hips\nchest,hips\narm,chest\nhand,arm\nthumb,hand\n");
         folder.file("metrics.csv", metrics_header + "lbs,0,-0.25,0,0.125,\nlbs,1,-4,3,0.5,8\nlbs,2,1.5,2,0.25,6\n" +
@@ -287,7 +288,8 @@ TEST_F(TrialSummary, RanksByTheMedianOverFramesInWhichAllHaveAnError)
 TEST_F(TrialSummary, AMethodIsExcludedForAShareOfTheBodyInATenthOfTheFrames)
 {
     folder.file("run.json", R"({"character": {"model": {"file": "hero.glb"}, "tets": 1000, "vertices": 5},
-                                "outcome": {"motion": {"largest_rotation_deg": 30.0}, "frames": 10, "warnings": [], "notes": []}})");
+                                "outcome": {"motion": {"largest_rotation_deg": 30.0}, "frames": 10,
+                                            "warnings": [], "notes": []}})");
     folder.file("regions.csv", regions_header);
     const auto sentence_with = [&](int frames, int inverted) {
         std::string rows = metrics_header;
@@ -329,7 +331,8 @@ TEST_F(TrialSummary, NobodyIsNearestToADoubtfulReference)
         folder.file("run.json",
                     fmt::format(R"({{"character": {{"model": {{"file": "hero.glb"}}, "tets": 7, "vertices": 5}},
             "outcome": {{"motion": {{}}, "frames": 3, "warnings": [], "notes": [],
-                         "reference_lag": {{"largest_turn_deg": {}, "lagging_frames": {}, "frames": 20, "bone": "upper", "frame": 2}}}}}})",
+                         "reference_lag": {{"largest_turn_deg": {}, "lagging_frames": {},
+                                            "frames": 20, "bone": "upper", "frame": 2}}}}}})",
                                 degrees, lagging));
     };
     write_lag(27.0, 2);
@@ -343,7 +346,8 @@ TEST_F(TrialSummary, NobodyIsNearestToADoubtfulReference)
 TEST_F(TrialSummary, WhereBonesAreStretchedVolumeIsNotJudged)
 {
     folder.file("run.json", R"({"character": {"model": {"file": "slime.glb"}, "tets": 7, "vertices": 5},
-                                "outcome": {"motion": {"stretched_bones": [{"bone": "top", "change_pct": 53.0, "frame": 7}]},
+                                "outcome": {"motion": {"stretched_bones": [
+                                                           {"bone": "top", "change_pct": 53.0, "frame": 7}]},
                                             "frames": 3, "warnings": [], "notes": []}})");
     EXPECT_EQ(facts().at("motion").at("stretched_bones").at(0).at("bone"), "top");
     EXPECT_EQ(trial_sentence(facts()),
@@ -419,7 +423,8 @@ TEST_F(TrialSummary, StatesTheLargestBoundOfTheReferencesErrorAndItsTime)
     EXPECT_TRUE(facts().at("error_bar").is_null()) << "no column has the bounds";
     folder.file("run.json", R"({"character": {"model": {"file": "hero.glb"}, "tets": 7, "vertices": 5},
                                 "cost": {"seconds": {"error_bar": 2.0, "error_bar_set_up": 0.5}},
-                                "outcome": {"motion": {"largest_rotation_deg": 30.0}, "frames": 4, "warnings": [], "notes": []}})");
+                                "outcome": {"motion": {"largest_rotation_deg": 30.0}, "frames": 4,
+                                            "warnings": [], "notes": []}})");
     folder.file(
         "metrics.csv",
         "deformer,frame,volume_change_pct,inverted_tets,step_ms,reference_error_joint_pct\n"

@@ -117,14 +117,22 @@ TEST_F(Vtk, FilesOfEveryKindItWritesAreReadToTheBit)
     pbs::write_tet_mesh(folder / "bar.vtu", bar());
     ASSERT_EQ(python(R"(
 import sys, vtk
-reader = vtk.vtkXMLUnstructuredGridReader(); reader.SetFileName(sys.argv[1] + "/bar.vtu"); reader.Update()
+reader = vtk.vtkXMLUnstructuredGridReader()
+reader.SetFileName(sys.argv[1] + "/bar.vtu")
+reader.Update()
 def write(writer, name):
-    writer.SetInputConnection(reader.GetOutputPort()); writer.SetFileName(sys.argv[1] + "/" + name); assert writer.Write()
+    writer.SetInputConnection(reader.GetOutputPort())
+    writer.SetFileName(sys.argv[1] + "/" + name)
+    assert writer.Write()
 for mode in ("Ascii", "Binary", "Appended"):
-    writer = vtk.vtkXMLUnstructuredGridWriter(); getattr(writer, "SetDataModeTo" + mode)(); writer.EncodeAppendedDataOff()
+    writer = vtk.vtkXMLUnstructuredGridWriter()
+    getattr(writer, "SetDataModeTo" + mode)()
+    writer.EncodeAppendedDataOff()
     write(writer, mode + ".vtu")
 for mode in ("ASCII", "Binary"):
-    writer = vtk.vtkUnstructuredGridWriter(); getattr(writer, "SetFileTypeTo" + mode)(); write(writer, mode + ".vtk")
+    writer = vtk.vtkUnstructuredGridWriter()
+    getattr(writer, "SetFileTypeTo" + mode)()
+    write(writer, mode + ".vtk")
 )",
                      folder.path().string()),
               0);

@@ -402,8 +402,9 @@ TEST(LinearFemDeformer, RecordsWhatIsGrippedOfEachBone)
     for (const double angle_deg : {10.0, 5.0}) fem.at(turned(angle_deg));
     const nlohmann::json record = fem.record();
     expect_facts(record,
-                 R"({"frames": 2, "attachment": {"bones": [{"samples": 7720, "inside": 7720, "shared_vertices": 0},
-                                                                   {"samples": 7720, "inside": 7720, "shared_vertices": 0}]}})");
+                 R"({"frames": 2, "attachment": {"bones": [
+                     {"samples": 7720, "inside": 7720, "shared_vertices": 0},
+                     {"samples": 7720, "inside": 7720, "shared_vertices": 0}]}})");
     // The angle is that of a quaternion of norm one, some twenty roundings after the angle of the pose.
     const double degree = std::acos(-1.0) / 180.0, rounding = rounding_error(20, 1.0);
     EXPECT_NEAR(record["largest_rotation_deg"].get<double>(), 10.0, rounding / degree);
@@ -489,8 +490,10 @@ TEST(NewtonRecord, AFrameThatIsNotReachedIsNamedWithItsReason)
         {-0.4, 17, 2, 0.5});
     // lowest_det_f: of frames that converged
     expect_facts(record.to_json(), R"({"restarts_from_rest": 1, "lowest_det_f": 0.9,
-                                       "not_converged": [{"frame": 1, "reached": 0.25, "restarted_from_rest": true, "newton": "no_descent",
-                                                          "last_residual_n": 8, "worst_tet": 17, "inverted_points": 2}]})");
+                                       "not_converged": [
+                                           {"frame": 1, "reached": 0.25, "restarted_from_rest": true,
+                                            "newton": "no_descent", "last_residual_n": 8,
+                                            "worst_tet": 17, "inverted_points": 2}]})");
 }
 
 }  // namespace
