@@ -39,7 +39,7 @@ DeformerTraits traits_from(const Options& options, const DeformerSpec& spec)
     DeformerTraits traits;
     if constexpr (requires { options.order; }) {
         traits.order = name_of(options.order);
-        traits.packed = is_packed(options.order);
+        traits.packed = options.order == pbs::Order::ordered;
     }
     if constexpr (requires { options.precision; }) traits.precision = name_of(options.precision);
     if constexpr (requires { options.packed; }) traits.packed = options.packed;

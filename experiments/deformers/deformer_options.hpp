@@ -17,7 +17,7 @@ class SceneValues;
 NAMED_OPTIONS(pbs::Precision, f32, f64)
 
 NAMED_OPTIONS(pbs::StartShape, lbs, smooth_dqs)
-NAMED_OPTIONS(pbs::Order, plain, ordered, grouped, spread)
+NAMED_OPTIONS(pbs::Order, plain, ordered, spread)
 
 template <>
 inline constexpr NameTable<pbs::MushSmoothing, 2> option_names<pbs::MushSmoothing>{

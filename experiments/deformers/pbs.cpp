@@ -120,7 +120,7 @@ private:
         const bool each_its_own = another_reading || other_constraints || options_.contact || options_.jiggle ||
                                   options_.sleep || options_.stop_residual > 0.0 || options_.record_iterations ||
                                   !begins_at_lbs();
-        return options_.threads > 1 && is_packed(options_.order) && !each_its_own &&
+        return options_.threads > 1 && options_.order == pbs::Order::ordered && !each_its_own &&
                !pbs::shared_among_threads(static_cast<int>(character_->mesh.rest.rows()));
     }
     // Returns the next of the frames that are done, or else of a new lot.
@@ -209,8 +209,9 @@ DeformerKind kind_of_xpbd(const std::string& name, const std::string& meaning, C
             .add("density_kg_m3", &XpbdOptions::density_kg_m3,
                  {.unit = "kg/m^3", .range = {above_zero}, .meaning = "density, lumped"})
             .add("order", &XpbdOptions::order,
-                 {.meaning = "order of projection within a class: plain is the order of the file; ordered, grouped and "
-                             "spread are those of pbs"})
+                 {.meaning =
+                      "order of projection within a class: plain is the order of the file; ordered and spread are "
+                      "those of pbs"})
             .add("precision", &XpbdOptions::precision,
                  {.meaning = "floating point of the projections and their multipliers"})
             .add("start", &XpbdOptions::start, {.meaning = start_meaning})

@@ -31,9 +31,8 @@ void add_keys(OptionFields<PbsOptions>& fields)
         .add("order", &PbsOptions::order,
              {.meaning = "order of projection within a class: plain is the order of the file, as in the paper; ordered "
                          "projects sixteen "
-                         "constraints at once that share no vertex; grouped does the same with groups of neighbouring "
-                         "constraints and is the "
-                         "fastest; spread is plain code whose constraints come from eight distant parts of the file in "
+                         "constraints at once that share no vertex; spread is plain code whose constraints come from "
+                         "eight distant parts of the file in "
                          "turn, which is faster "
                          "than plain; printed volume_forms need plain or spread"})
         .add("precision", &PbsOptions::precision, {.meaning = "floating point of the projections"})
@@ -44,8 +43,8 @@ void add_keys(OptionFields<PbsOptions>& fields)
         .add("sleep", &PbsOptions::sleep,
              {.meaning = "constraints that LBS satisfies, and all around them, are left out for the frame; at its end "
                          "they are checked, and "
-                         "the frame is repeated with those that are not satisfied any more; only with the orders "
-                         "ordered and grouped"})
+                         "the frame is repeated with those that are not satisfied any more; only with the order "
+                         "ordered"})
         .add("sleep_tolerance", &PbsOptions::sleep_tolerance,
              {.range = {0, 1},
               .meaning = "the error that a sleeping constraint may have: |l / l0 - 1|, |V / V0 - 1|, and for bind a "
@@ -179,10 +178,10 @@ const OptionFields<PbsOptions>& pbs_fields()
 
 void check_pbs(const SceneValues& values, const std::string& table, PbsOptions& options, DeformerSpec& spec)
 {
-    if (options.sleep && !is_packed(options.order))
+    if (options.sleep && options.order != pbs::Order::ordered)
         values.refuse(table + ".sleep", "expected false with order plain or spread, which project all");
     // the printed forms have plain code alone
-    if (options.volume_form != pbs::VolumeForm::derived && is_packed(options.order)) {
+    if (options.volume_form != pbs::VolumeForm::derived && options.order == pbs::Order::ordered) {
         if (values.given(table + ".order"))
             values.refuse(table + ".order", "expected plain or spread with a printed volume_form");
         options.order = pbs::Order::plain;

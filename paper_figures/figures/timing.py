@@ -158,7 +158,6 @@ looks_of_orders = {"plain": ("plain", style.rose, (0, (4, 1.5)), "v"),
                    "plain_native": ("plain, native build", style.sand, (0, (2, 1)), "s"),
                    "plain_spread": ("plain, native, spread", style.ink, (0, (1, 1)), "x"),
                    "ordered": ("ordered", style.indigo, "-", "o"),
-                   "grouped": ("grouped", style.teal, (0, (5, 1.2, 1, 1.2)), "^"),
                    "poses": ("16 poses, each", style.wine, (0, (4, 1, 1, 1, 1, 1)), "D")}
 
 
@@ -186,7 +185,7 @@ def write_exponents(axes, record, precision):
             if (fit["precision"], fit["threads"]) == (precision, 1)}
     lines = ["step \u221d constraints$^e$, 95 %"] if fits else []
     rows = []
-    for variant in ("plain", "ordered", "grouped", "poses"):
+    for variant in ("plain", "ordered", "poses"):
         if variant in fits:
             low, high = fits[variant]["interval"]
             lines.append(f"{variant}: e = {fits[variant]['exponent']:.2f}" + (f" [{low:.2f}, {high:.2f}]"
@@ -220,7 +219,7 @@ def draw_cost(axes, record, precision):
 def draw_threads(axes, record):
     rows = []
     threads = record["context"]["threads"]
-    for variant in ("ordered", "grouped", "poses"):
+    for variant in ("ordered", "poses"):
         name, color, _, marker = looks_of_orders[variant]
         for precision, line in (("f32", "-"), ("f64", (0, (4, 1.5)))):
             found = [(mesh["tets"], timing["speedup_by_threads"])

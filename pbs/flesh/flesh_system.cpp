@@ -2,7 +2,7 @@
 
 #include "pbs/flesh/projective_dynamics.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/packed/groups.hpp"
+#include "pbs/packed/constraint_sequence.hpp"
 #include "pbs/system/module.hpp"
 
 #include <numeric>

@@ -3,7 +3,7 @@
 #include "pbs/flesh/flesh_kernels.hpp"
 #include "pbs/geometry/extent.hpp"
 #include "pbs/geometry/input_error.hpp"
-#include "pbs/packed/groups.hpp"
+#include "pbs/packed/constraint_sequence.hpp"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,70 +1,32 @@
-// Sixteen groups of constraints that share no vertex, side by side: the input of the kernels. Plain data, for builders
-// and kernels alike. ContactKernels declares the kernels of the search for self-contact, which code without batches
-// uses as well.
-//
-// A group is what one lane projects before it stores its vertices: a single constraint (order `ordered`), or a few that
-// share most of their vertices (order `grouped`), so that each vertex is loaded and stored once for all of them.
+// Sixteen constraints that share no vertex, side by side: the input of the kernels. Plain data, for builders and
+// kernels alike. ContactKernels declares the kernels of the search for self-contact, which code without batches uses as
+// well.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
 
 namespace pbs {
 
-// Groups in a batch; on machines of fewer lanes it is worked off in parts, so that the order of projection is the same
-// everywhere.
+// Constraints in a batch; on machines of fewer lanes it is worked off in parts, so that the order of projection is the
+// same everywhere.
 inline constexpr int batch_size = 16;
 
-// edge: one; edge_wedge: two that share a vertex; edge_triangle: three; edge_tet: the six of a tet; tet: one;
-// tet_fan_2, _3: tets round an edge.
-enum class GroupKind { edge, edge_wedge, edge_triangle, edge_tet, tet, tet_fan_2, tet_fan_3 };
+// A stretch constraint joins the two vertices of an edge, a volume constraint the four of a tet.
+enum class ConstraintKind { edge, tet };
+constexpr int corners(ConstraintKind kind)
+{
+    return kind == ConstraintKind::edge ? 2 : 4;
+}
 
-// The vertices within a group that each of its constraints joins.
-template <GroupKind kind>
-inline constexpr std::array<std::array<int, 0>, 0> joins_of = {};
-template <>
-inline constexpr std::array<std::array<int, 2>, 1> joins_of<GroupKind::edge>{{{0, 1}}};
-template <>
-inline constexpr std::array<std::array<int, 2>, 2> joins_of<GroupKind::edge_wedge>{{{0, 1}, {1, 2}}};
-template <>
-inline constexpr std::array<std::array<int, 2>, 3> joins_of<GroupKind::edge_triangle>{{{0, 1}, {1, 2}, {2, 0}}};
-template <>  // opposite edges one after the other
-inline constexpr std::array<std::array<int, 2>, 6> joins_of<GroupKind::edge_tet>{
-    {{0, 1}, {2, 3}, {0, 2}, {1, 3}, {0, 3}, {1, 2}}};
-template <>
-inline constexpr std::array<std::array<int, 4>, 1> joins_of<GroupKind::tet>{{{0, 1, 2, 3}}};
-template <>  // round the edge 0, 1
-inline constexpr std::array<std::array<int, 4>, 2> joins_of<GroupKind::tet_fan_2>{{{0, 1, 2, 3}, {0, 1, 3, 4}}};
-template <>
-inline constexpr std::array<std::array<int, 4>, 3> joins_of<GroupKind::tet_fan_3>{
-    {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}}};
-
-// vertices and constraints: how many.
-template <GroupKind kind>
-struct GroupShape {
-    static constexpr auto joins = joins_of<kind>;
-    static constexpr int constraints = static_cast<int>(joins.size());
-    static constexpr int vertices = [] {
-        int last = 0;
-        for (const auto& join : joins)
-            for (const int vertex : join) last = vertex > last ? vertex : last;
-        return last + 1;
-    }();
-};
-
-// True for stretch constraints, false for volume constraints.
-template <GroupKind kind>
-inline constexpr bool of_edges = kind <= GroupKind::edge_tet;
-
-// Every group [lane] of a batch. rest: rest length [m] of an edge, six times the rest volume [m^3] of a tet; stiffness:
-// k, of an edge over w1 + w2; zero for a constraint that is not there.
-template <typename Scalar, GroupKind kind>
+// Every constraint [lane] of a batch. rest: rest length [m] of an edge, six times the rest volume [m^3] of a tet;
+// stiffness: k, of an edge over w1 + w2; zero for a constraint that is not there.
+template <typename Scalar, ConstraintKind kind>
 struct alignas(64) Batch {
-    std::uint32_t offset[GroupShape<kind>::vertices][batch_size];  // 4 * vertex
-    Scalar rest[GroupShape<kind>::constraints][batch_size];        // l0, or 6 V0
-    Scalar stiffness[GroupShape<kind>::constraints][batch_size];   // k / (w1 + w2), or k
+    std::uint32_t offset[corners(kind)][batch_size];  // 4 * vertex
+    Scalar rest[batch_size];                          // l0, or 6 V0
+    Scalar stiffness[batch_size];                     // k / (w1 + w2), or k
 };
 
 // The bind constraints of sixteen vertices that follow each other.
@@ -112,14 +74,12 @@ struct ContactKernels {
                                  const std::uint32_t* end, const Scalar* x, unsigned* bits);
 };
 
-// Calls f with a std::integral_constant of the kind, which is `first` or a later one.
-template <typename F, GroupKind first = GroupKind::edge>
-constexpr decltype(auto) with_kind(GroupKind kind, F&& f)
+// Calls f with a std::integral_constant of the kind.
+template <typename F>
+constexpr decltype(auto) with_kind(ConstraintKind kind, F&& f)
 {
-    if constexpr (first != GroupKind::tet_fan_3)
-        if (kind != first)
-            return with_kind<F, static_cast<GroupKind>(static_cast<int>(first) + 1)>(kind, std::forward<F>(f));
-    return f(std::integral_constant<GroupKind, first>());
+    if (kind == ConstraintKind::edge) return f(std::integral_constant<ConstraintKind, ConstraintKind::edge>());
+    return f(std::integral_constant<ConstraintKind, ConstraintKind::tet>());
 }
 
 }  // namespace pbs

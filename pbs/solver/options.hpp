@@ -11,14 +11,9 @@ namespace pbs {
 // weights, as in the paper. smooth_dqs: dual quaternion skinning with the weights of HeldFlesh::smooth_weights.
 enum class StartShape { lbs, smooth_dqs };
 // Order of projection within each class; the classes follow the order of Algorithm 1. plain: file order, as the paper
-// reads. ordered: colour by colour (groups.hpp), sixteen constraints that share no vertex side by side. grouped: the
-// same with neighbouring constraints in groups, quicker per iteration and with a larger volume change after 24 of them.
+// reads. ordered: colour by colour (constraint_sequence.hpp), sixteen constraints that share no vertex side by side.
 // spread: plain code in the order of in_spread_order (constraint_set.hpp), which is quicker than file order.
-enum class Order { plain, ordered, grouped, spread };
-constexpr bool is_packed(Order order)
-{
-    return order == Order::ordered || order == Order::grouped;
-}
+enum class Order { plain, ordered, spread };
 // m_i = 1 (the paper), or in proportion to the lumped rest volume; only their ratios count.
 enum class Masses { unit, lumped };
 // The volume correction: derived from Eq. 11 (default), or with one error of Eq. 12-20 at a time, or all of them:
@@ -136,7 +131,7 @@ struct XpbdOptions {
     StartShape start = StartShape::lbs;  // for the caller
     bool jiggle = false;                 // the jiggling zone is integrated in time
     bool keep_multipliers = true;        // false: set to zero in every iteration, a common mistake; a negative control
-    Order order = Order::plain;          // within each class; ordered and grouped are packed code
+    Order order = Order::plain;          // within each class; ordered is packed code
     Precision precision = Precision::f64;  // of the projections and their multipliers
     int threads = 1;  // of a step in packed code, where the mesh is large enough for more than one to pay
 };

@@ -89,7 +89,7 @@ void check_poses(const std::vector<PbsOptions>& options)
     const auto refuse = [](const char* field, const std::string& rule) { throw InputError("pbs", 0, field, "", rule); };
     if (options.empty()) refuse("poses", "expected one or more");
     for (const PbsOptions& pose : options) {
-        if (!is_packed(pose.order)) refuse("order", "expected ordered or grouped for many poses at once");
+        if (pose.order != Order::ordered) refuse("order", "expected ordered for many poses at once");
         if (pose.order != options[0].order || pose.precision != options[0].precision ||
             pose.masses != options[0].masses)
             refuse("poses", "expected one order, precision and kind of masses for all");
@@ -124,8 +124,7 @@ public:
         const bool jiggle = options.front().jiggle.has_value();
         const ConstraintSet<Scalar> constraints =
             make_constraint_set<Scalar>(mesh, bind_distance, jiggle_zone, of_any(options), held);
-        program_ = make_pose_program(constraints, mesh.tets, jiggle ? jiggle_zone : std::vector<bool>{},
-                                     options.front().order);
+        program_ = make_pose_program(constraints, mesh.tets, jiggle ? jiggle_zone : std::vector<bool>{});
         work_an_iteration_ = {.tet_visits = static_cast<std::int64_t>(constraints.volume.size()),
                               .projections = static_cast<std::int64_t>(
                                   constraints.bind.size() + constraints.stretch.size() + constraints.volume.size())};

@@ -54,7 +54,7 @@ private:
 //   PosesSolver solver(mesh, bind_distance, jiggle_zone, options);   // options: of every pose
 //   solver.advance(lbs_positions, bind_points, dt);                  // of every pose
 //   solver.positions(7);
-// Poses may differ in iterations, stiffnesses and gravity; order (ordered, grouped), precision and masses are those of
+// Poses may differ in iterations, stiffnesses and gravity; order (ordered), precision and masses are those of
 // the first, and each is projected in the order that PbsSolver would take. A residual to stop at, records of iterations
 // and sleep are not for many poses at once.
 inline constexpr int poses_at_once = 16;  // that share a block; a last block may have fewer

@@ -112,14 +112,13 @@ template <typename Scalar>
 std::unique_ptr<Projection<Scalar>> in_own_class_order(ConstraintSet<Scalar> constraints, const Tets& tets,
                                                        const PbsOptions& options)
 {
-    if (options.sleep && !is_packed(options.order))
+    if (options.sleep && options.order != Order::ordered)
         throw InputError("pbs", 0, "sleep", "true", "expected false with order plain or spread, which project all");
     if (options.order == Order::spread) constraints = in_spread_order(std::move(constraints));
-    if (!is_packed(options.order))
+    if (options.order != Order::ordered)
         return std::make_unique<PlainProjection<Scalar>>(std::move(constraints), options.volume_form);
     if (options.volume_form != VolumeForm::derived)
-        throw InputError("pbs", 0, "order", "ordered or grouped",
-                         "expected plain or spread with a printed volume_form");
+        throw InputError("pbs", 0, "order", "ordered", "expected plain or spread with a printed volume_form");
     return std::make_unique<BatchedProjection<Scalar>>(constraints, tets, options);
 }
 

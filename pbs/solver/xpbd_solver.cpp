@@ -202,14 +202,14 @@ private:
     std::vector<Point> x_, q_;  // relative to the origin [m], #V
 };
 
-// The orders `ordered` and `grouped`: the batches, the slabs and the sequence of BatchedProjection, with a compliance
+// The order `ordered`: the batches, the slabs and the sequence of BatchedProjection, with a compliance
 // and a multiplier for each constraint. Any machine and any number of threads project alike, and threads give the same
 // bits.
 template <typename Scalar>
 class BatchedXpbdProjection : public XpbdProjection {
 public:
-    BatchedXpbdProjection(const XpbdConstraints& constraints, const Tets& tets, Order order, int threads)
-        : batched_(make_batched_constraints<Scalar>(constraints, tets, order)),
+    BatchedXpbdProjection(const XpbdConstraints& constraints, const Tets& tets, int threads)
+        : batched_(make_batched_constraints<Scalar>(constraints, tets)),
           parallel_(batched_.order.slabs() >= slabs_worth_threads ? threads : 1),
           particles_(batched_, {constraints.inverse_mass.begin(), constraints.inverse_mass.end()},
                      rigid_binds(constraints)),
@@ -231,11 +231,11 @@ public:
     void store(const Vec3& origin, Positions& p) const override { particles_.store(origin, p); }
 
 private:
-    struct alignas(64) Lambdas {  // of one constraint of each group of a batch
+    struct alignas(64) Lambdas {  // of a batch
         Scalar of_lane[batch_size];
     };
     struct Multipliers {
-        std::vector<Lambdas> lambdas;                        // by runs, then batches, then constraints
+        std::vector<Lambdas> lambdas;                        // by runs, then batches
         std::vector<std::vector<std::size_t>> first_of_run;  // of each slab
     };
 
@@ -255,7 +255,7 @@ private:
             std::vector<std::size_t>& first = multipliers.first_of_run.emplace_back();
             for (const BatchRun& run : program.runs(slab)) {
                 first.push_back(next);
-                next += static_cast<std::size_t>(run.count) * constraints_of(run.kind);
+                next += static_cast<std::size_t>(run.count);
             }
         }
         multipliers.lambdas.resize(next, Lambdas{});
@@ -286,7 +286,7 @@ std::unique_ptr<XpbdProjection> in_precision(const XpbdConstraints& constraints,
     if (options.order == Order::spread)
         return std::make_unique<PlainXpbdProjection<Scalar>>(in_spread_order(constraints));
     if (options.order == Order::plain) return std::make_unique<PlainXpbdProjection<Scalar>>(constraints);
-    return std::make_unique<BatchedXpbdProjection<Scalar>>(constraints, tets, options.order, options.threads);
+    return std::make_unique<BatchedXpbdProjection<Scalar>>(constraints, tets, options.threads);
 }
 
 }  // namespace
@@ -321,7 +321,7 @@ XpbdConstraints make_xpbd_constraints(const TetMesh& mesh, const Eigen::VectorXd
 }
 
 template <typename Scalar>
-BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& constraints, const Tets& tets, Order order)
+BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& constraints, const Tets& tets)
 {
     ConstraintClassData<Scalar, 2> stretch;
     for (const auto& [edge, compliance] : constraints.stretch)
@@ -329,7 +329,7 @@ BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& const
     ConstraintClassData<Scalar, 4> volume;
     for (const auto& [tet, compliance] : constraints.volume)
         volume.add(tet.vertex, Scalar(6.0 * tet.rest_volume), Scalar(1.0 / (36.0 * compliance)));
-    return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets, order);
+    return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets);
 }
 
 template BatchedConstraints<float> make_batched_constraints(const XpbdConstraints&, const Tets&, Order);

@@ -12,8 +12,8 @@
 // beginning of a substep. With many substeps of one iteration (M. Macklin et al., Small steps in physics simulation,
 // SCA 2019) the multipliers begin at zero in each substep.
 //
-// The projections run in the order and the precision of the options: `plain` one after the other, `ordered` and
-// `grouped` sixteen at once in the sequence of PBS, which settles on another limit. In float, they are relative to the
+// The projections run in the order and the precision of the options: `plain` one after the other, `ordered`
+// sixteen at once in the sequence of PBS, which settles on another limit. In float, they are relative to the
 // mean position of the step.
 #pragma once
 
@@ -78,7 +78,7 @@ protected:
     double dt2_s2_ = 0.0;  // the square of the substep [s^2]
 };
 
-// The order and the precision that the options name. tets: those whose edges the order `grouped` may group.
+// The order and the precision that the options name. tets: those of the mesh.
 std::unique_ptr<XpbdProjection> make_xpbd_projection(const XpbdConstraints& constraints, const Tets& tets,
                                                      const XpbdOptions& options);
 

@@ -1,7 +1,6 @@
-// Sixteen groups of vertices, or sixteen poses of one body, and the kernels that project their constraints side by
-// side.
-//   Sixteen<float> groups; groups.links = {{{0, 1}}};
-//   Groups<float, GroupKind::edge>::project(groups);
+// Sixteen constraints, or sixteen poses of one body, and the kernels that project them side by side.
+//   Sixteen<float> edges; edges.links = {{{0, 1}}};
+//   Batched<float, ConstraintKind::edge>::project(edges);
 #pragma once
 
 #include "pbs/solver/batched/pbs_kernels.hpp"
@@ -37,76 +36,72 @@ struct Sixteen {
 
 // One batch, with vertices of its own in each lane. k: as the kernel takes it, from k and the sum of two inverse
 // masses.
-template <typename Scalar, pbs::GroupKind kind>
+template <typename Scalar, pbs::ConstraintKind kind>
 struct Packed {
-    using Shape = pbs::GroupShape<kind>;
-    alignas(64) Scalar xyzw[lanes * Shape::vertices][4] = {};
-    alignas(64) Scalar lambda[Shape::constraints][lanes] = {};
+    static constexpr int corners = pbs::corners(kind);
+    alignas(64) Scalar xyzw[lanes * corners][4] = {};
+    alignas(64) Scalar lambda[lanes] = {};
     pbs::Batch<Scalar, kind> batch = {};
 
     template <typename Stiffness>
     Packed(const Sixteen<Scalar>& from, Stiffness stiffness)
     {
+        const auto& link = from.links.front();
         for (int lane = 0; lane < lanes; ++lane) {
-            for (int v = 0; v < Shape::vertices; ++v) {
-                batch.offset[v][lane] = 4 * (lane * Shape::vertices + v);
-                for (int axis = 0; axis < 3; ++axis) xyzw[lane * Shape::vertices + v][axis] = from.p[lane][v](axis);
-                xyzw[lane * Shape::vertices + v][3] = from.w[lane][v];
+            for (int v = 0; v < corners; ++v) {
+                batch.offset[v][lane] = 4 * (lane * corners + v);
+                for (int axis = 0; axis < 3; ++axis) xyzw[lane * corners + v][axis] = from.p[lane][v](axis);
+                xyzw[lane * corners + v][3] = from.w[lane][v];
             }
-            for (int c = 0; c < Shape::constraints; ++c) {
-                const auto& link = from.links[c];
-                batch.rest[c][lane] = (pbs::of_edges<kind> ? Scalar(1) : Scalar(6)) * link.rest[lane];
-                batch.stiffness[c][lane] =
-                    stiffness(link.k[lane], from.w[lane][link.vertex[0]] + from.w[lane][link.vertex[1]]);
-                lambda[c][lane] = link.lambda[lane];
-            }
+            batch.rest[lane] = Scalar(corners == 2 ? 1 : 6) * link.rest[lane];
+            batch.stiffness[lane] = stiffness(link.k[lane], from.w[lane][0] + from.w[lane][1]);
+            lambda[lane] = link.lambda[lane];
         }
     }
     void store(Sixteen<Scalar>& to) const
     {
         for (int lane = 0; lane < lanes; ++lane) {
-            for (int v = 0; v < Shape::vertices; ++v) {
-                const Scalar* vertex = xyzw[lane * Shape::vertices + v];
+            for (int v = 0; v < corners; ++v) {
+                const Scalar* vertex = xyzw[lane * corners + v];
                 to.p[lane][v] = {vertex[0], vertex[1], vertex[2]};
                 to.w[lane][v] = vertex[3];
             }
-            for (int c = 0; c < Shape::constraints; ++c) to.links[c].lambda[lane] = lambda[c][lane];
+            to.links.front().lambda[lane] = lambda[lane];
         }
     }
 };
 
-template <typename S, pbs::GroupKind kind>
-struct Groups {
+template <typename S, pbs::ConstraintKind kind>
+struct Batched {
     using Scalar = S;
     static constexpr bool one_body = false, compliant = false;
-    static constexpr int vertices = pbs::GroupShape<kind>::vertices;
+    static constexpr int vertices = pbs::corners(kind);
     static std::vector<std::vector<int>> links()
     {
-        std::vector<std::vector<int>> joined;
-        for (const auto& join : pbs::GroupShape<kind>::joins) joined.emplace_back(join.begin(), join.end());
-        return joined;
+        if (vertices == 2) return {{0, 1}};
+        return {{0, 1, 2, 3}};
     }
     static Packed<S, kind> packed(const Sixteen<S>& from)
     {
-        return {from, [](S k, S w) { return !pbs::of_edges<kind> ? k : w > S(0) ? k / w : S(0); }};
+        return {from, [](S k, S w) { return vertices == 4 ? k : w > S(0) ? k / w : S(0); }};
     }
-    static void project(Sixteen<S>& groups)
+    static void project(Sixteen<S>& constraints)
     {
-        auto batch = packed(groups);
+        auto batch = packed(constraints);
         pbs::project_batches<S>(kind, &batch.batch, 1, batch.xyzw[0]);
-        batch.store(groups);
+        batch.store(constraints);
     }
 };
 
 // XPBD. Stiffness and multiplier of a tet are those of six times its volume.
-template <typename S, pbs::GroupKind kind>
-struct Compliant : Groups<S, kind> {
+template <typename S, pbs::ConstraintKind kind>
+struct Compliant : Batched<S, kind> {
     static constexpr bool compliant = true;
-    static void project(Sixteen<S>& groups, S dt2 = S(0.25))
+    static void project(Sixteen<S>& constraints, S dt2 = S(0.25))
     {
-        Packed<S, kind> batch(groups, [](S k, S) { return k; });
-        pbs::project_compliant_batches<S>(kind, &batch.batch, 1, dt2, batch.lambda[0], batch.xyzw[0]);
-        batch.store(groups);
+        Packed<S, kind> batch(constraints, [](S k, S) { return k; });
+        pbs::project_compliant_batches<S>(kind, &batch.batch, 1, dt2, batch.lambda, batch.xyzw[0]);
+        batch.store(constraints);
     }
 };
 
@@ -130,13 +125,13 @@ struct BindBatches {
                 batches[v].stiffness[lane] = from.w[lane][v] > S(0) ? from.links[v].k[lane] : S(0);
             }
     }
-    static void project(Sixteen<S>& groups)
+    static void project(Sixteen<S>& binds)
     {
-        BindBatches packed(groups);
+        BindBatches packed(binds);
         pbs::project_bind_batches<S>(packed.batches, vertices, packed.xyzw[0]);
         for (int v = 0; v < vertices; ++v)
             for (int lane = 0; lane < lanes; ++lane)
-                groups.p[lane][v] = Eigen::Map<const pbs::Vector3<S>>(packed.xyzw[v * lanes + lane]);
+                binds.p[lane][v] = Eigen::Map<const pbs::Vector3<S>>(packed.xyzw[v * lanes + lane]);
     }
 
     alignas(64) S xyzw[vertices * lanes][4];

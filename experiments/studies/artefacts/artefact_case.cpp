@@ -249,7 +249,7 @@ std::vector<DeformerSpec> other_orders(const DeformerSpec& pbs)
     std::vector<DeformerSpec> others;
     const auto& own = options_of<pbs::PbsOptions>(pbs);
     for (const pbs::Precision precision : {pbs::Precision::f32, pbs::Precision::f64})
-        for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped, pbs::Order::plain}) {
+        for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::plain}) {
             if (order == own.order && precision == own.precision) continue;
             others.push_back(pbs);
             options_of<pbs::PbsOptions>(others.back()).order = order;

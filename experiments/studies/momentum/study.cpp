@@ -179,7 +179,7 @@ std::string measure_drift(const MomentumCase& momentum_case, const std::string& 
                                          .constraint = class_name};
                 add(rows, projected, "", key,
                     drift_of_projections(posed.character(), posed.pose(0), options, projected, setting.counted));
-                for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped, pbs::Order::plain}) {
+                for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::plain}) {
                     options.order = order;
                     key.order = name_of(order);
                     add(rows, projected, "_of_a_pass", key,

@@ -59,7 +59,7 @@ std::vector<MemoryBandwidth> measure_bandwidth(double seconds, double largest_by
 // Interpolates linearly in the logarithm of the working set; constant outside the measured sizes.
 double bandwidth_at(const std::vector<MemoryBandwidth>& memory, double bytes);
 
-// plain, ordered, grouped: the orders. poses: sixteen poses per thread side by side.
+// plain, ordered: the orders. poses: sixteen poses per thread side by side.
 // Two baselines for comparison with `plain`, which gives the same bits on every machine. plain_native has the same
 // loops with all that the compiler offers. plain_spread has those loops on constraints whose neighbours in the list lie
 // far apart in the mesh, so that no projection waits for the stores of the one before (sorted edges share their first

@@ -101,7 +101,7 @@ void append(const EqualQualityCase& quality_case, const pbs::Character& characte
             contenders.push_back({{order, name_of(options.precision), sequence, path}, loops});
         };
         IterationPath of_ordered;
-        for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped}) {
+        for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered}) {
             pbs::PbsOptions in_order = options;
             in_order.order = order;
             const StepLoops loops = step_loops(constraints, tets, in_order, start);

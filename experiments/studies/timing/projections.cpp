@@ -124,7 +124,6 @@ void append(const BenchBody& body, const std::vector<int>& threads, std::vector<
     variants.push_back({"plain_spread", precision, 1, 1, native_loops(precision, in_spread_order(constraints), start)});
     for (const int count : threads) {
         append_order(pbs::Order::ordered, count);
-        append_order(pbs::Order::grouped, count);
         variants.push_back({"poses", precision, count, pose_blocks(count) * pbs::poses_a_block,
                             loops_of_poses(constraints, tets, pbs::PbsOptions(), start, count)});
     }
@@ -277,7 +276,7 @@ StepLoops loops_of_poses(const pbs::ConstraintSet<Scalar>& constraints, const pb
         pbs::Positions posed = {};
     };
     const auto state = std::make_shared<State>(
-        State{constraints, pbs::make_pose_program(constraints, tets, {}, pbs::Order::ordered), pbs::Parallel(threads)});
+        State{constraints, pbs::make_pose_program(constraints, tets, {}), pbs::Parallel(threads)});
     state->blocks.assign(pose_blocks(threads),
                          Block(state->program, std::vector<pbs::PbsOptions>(pbs::poses_a_block, options)));
     const auto on_all = [state](const auto& work) {

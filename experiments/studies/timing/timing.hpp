@@ -212,7 +212,7 @@ nlohmann::json to_json(const EqualQualityCase& quality_case);
 inline const std::string file_sequence = "file", spread_sequence = "spread";
 
 struct MeasuredOrder {
-    std::string order;           // plain, ordered, grouped, poses
+    std::string order;           // plain, ordered, poses
     std::string precision = {};  // f32, f64
     std::string sequence = {};   // file, spread, random_1, ...
     IterationPath path = {};

@@ -1,6 +1,6 @@
 #include "pbs/solver/batched/batch_program.hpp"
 
-#include "pbs/packed/groups.hpp"
+#include "pbs/packed/constraint_sequence.hpp"
 #include "pbs/solver/batched/pbs_kernels.hpp"
 #include "pbs/solver/pbs_solver.hpp"
 
@@ -10,41 +10,35 @@
 namespace pbs {
 namespace {
 
-constexpr int groups_a_cluster = 8192;
-constexpr GroupKind kinds_in_order[] = {GroupKind::edge_tet, GroupKind::edge_triangle, GroupKind::edge_wedge,
-                                        GroupKind::edge,     GroupKind::tet_fan_3,     GroupKind::tet_fan_2,
-                                        GroupKind::tet};
+constexpr int constraints_a_cluster = 8192;
 
 }  // namespace
 
 template <typename Scalar>
-BatchProgram<Scalar>::BatchProgram(const std::vector<ConstraintGroup>& groups, const ConstraintValues<Scalar>& values,
-                                   const VertexOrder& order, int dummy_begin)
-    : runs_(order.slabs()), groups_(groups.size())
+BatchProgram<Scalar>::BatchProgram(const std::vector<PackedConstraint>& constraints,
+                                   const ConstraintValues<Scalar>& values, const VertexOrder& order, int dummy_begin)
+    : runs_(order.slabs()), constraints_(constraints.size())
 {
     BatchScheduler scheduler(static_cast<int>(order.new_of_old.size()));
-    const std::vector<SlabClusters> clusters = clusters_of_slabs(groups, order, groups_a_cluster);
+    const std::vector<SlabClusters> clusters = clusters_of_slabs(constraints, order, constraints_a_cluster);
     for (int slab = 0; slab < order.slabs(); ++slab)
-        for (const std::vector<int>& cluster : clusters[slab])
-            for (const GroupKind kind : kinds_in_order) {
-                std::vector<ConstraintGroup> of_cluster;
-                for (const int g : cluster)
-                    if (groups[g].kind == kind) of_cluster.push_back(groups[g]);
-                with_kind(kind, [&](auto of_kind) {
-                    append<of_kind()>(of_cluster, scheduler.schedule(of_cluster), values, order, slab,
-                                      dummy_begin + slab * dummies_a_slab);
-                });
-            }
+        for (const std::vector<int>& cluster : clusters[slab]) {
+            std::vector<PackedConstraint> of_cluster;
+            for (const int c : cluster) of_cluster.push_back(constraints[c]);
+            with_kind(of_cluster.front().kind, [&](auto kind) {
+                append<kind()>(of_cluster, scheduler.schedule(of_cluster), values, order, slab,
+                               dummy_begin + slab * dummies_a_slab);
+            });
+        }
     lines_.shrink_to_fit();
 }
 
 template <typename Scalar>
-template <GroupKind kind>
-void BatchProgram<Scalar>::append(const std::vector<ConstraintGroup>& groups,
+template <ConstraintKind kind>
+void BatchProgram<Scalar>::append(const std::vector<PackedConstraint>& constraints,
                                   const std::vector<std::vector<int>>& batches, const ConstraintValues<Scalar>& values,
                                   const VertexOrder& order, int slab, int dummy)
 {
-    using Shape = GroupShape<kind>;
     if (batches.empty()) return;
     constexpr std::size_t lines_a_batch = sizeof(Batch<Scalar, kind>) / sizeof(CacheLine);
     runs_[slab].push_back({kind, static_cast<int>(batches.size()), lines_.size()});
@@ -54,15 +48,14 @@ void BatchProgram<Scalar>::append(const std::vector<ConstraintGroup>& groups,
     for (const std::vector<int>& members : batches) {
         auto& batch = *new (to) Batch<Scalar, kind>();
         for (int lane = 0; lane < batch_size; ++lane) {
-            const ConstraintGroup* group = lane < static_cast<int>(members.size()) ? &groups[members[lane]] : nullptr;
-            for (int v = 0; v < Shape::vertices; ++v)
+            const PackedConstraint* constraint =
+                lane < static_cast<int>(members.size()) ? &constraints[members[lane]] : nullptr;
+            for (int v = 0; v < corners(kind); ++v)
                 batch.offset[v][lane] =
-                    4u * (group ? order.new_of_old[group->vertex[v]] : dummy + lane * largest_group + v);
-            for (int c = 0; group && c < Shape::constraints; ++c) {
-                if (group->constraint[c] < 0) continue;
-                batch.rest[c][lane] = values.rest[group->constraint[c]];
-                batch.stiffness[c][lane] = values.stiffness[group->constraint[c]];
-            }
+                    4u * (constraint ? order.new_of_old[constraint->vertex[v]] : dummy + 4 * lane + v);
+            if (!constraint) continue;
+            batch.rest[lane] = values.rest[constraint->constraint];
+            batch.stiffness[lane] = values.stiffness[constraint->constraint];
         }
         to += lines_a_batch;
     }
@@ -109,7 +102,7 @@ void BatchProgram<Scalar>::mark_unsatisfied(const Scalar* vertices, double toler
 template <typename Scalar>
 double BatchProgram<Scalar>::fill() const
 {
-    return lanes_ == 0 ? 1.0 : double(groups_) / double(lanes_);
+    return lanes_ == 0 ? 1.0 : double(constraints_) / double(lanes_);
 }
 
 template class BatchProgram<float>;
@@ -118,23 +111,19 @@ template class BatchProgram<double>;
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Scalar, 2>& stretch,
                                                     const ConstraintClassData<Scalar, 4>& volume, int vertices,
-                                                    const Tets& tets, Order order)
+                                                    const Tets& tets)
 {
     BatchedConstraints<Scalar> batched{order_vertices(tets, vertices, vertices_a_slab(vertices)),
                                        (vertices + batch_size - 1) / batch_size * batch_size,
                                        {},
                                        {}};
-    const bool grouped = order == Order::grouped;
-    batched.stretch = {grouped ? grouped_edges(stretch.vertex, tets) : single_edges(stretch.vertex), stretch,
-                       batched.order, batched.dummy_begin};
-    batched.volume = {grouped ? grouped_tets(volume.vertex) : single_tets(volume.vertex), volume, batched.order,
-                      batched.dummy_begin};
+    batched.stretch = {packed_edges(stretch.vertex), stretch, batched.order, batched.dummy_begin};
+    batched.volume = {packed_tets(volume.vertex), volume, batched.order, batched.dummy_begin};
     return batched;
 }
 
 template <typename Scalar>
-BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets,
-                                                    Order order)
+BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets)
 {
     ConstraintClassData<Scalar, 2> stretch;
     for (const StretchConstraint<Scalar>& edge : constraints.stretch) {
@@ -144,16 +133,14 @@ BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>&
     ConstraintClassData<Scalar, 4> volume;
     for (const VolumeConstraint<Scalar>& tet : constraints.volume)
         volume.add(tet.vertex, Scalar(6) * tet.rest_volume, tet.stiffness);
-    return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets, order);
+    return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets);
 }
 
 template BatchedConstraints<float> make_batched_constraints(const ConstraintClassData<float, 2>&,
-                                                            const ConstraintClassData<float, 4>&, int, const Tets&,
-                                                            Order);
+                                                            const ConstraintClassData<float, 4>&, int, const Tets&);
 template BatchedConstraints<double> make_batched_constraints(const ConstraintClassData<double, 2>&,
-                                                             const ConstraintClassData<double, 4>&, int, const Tets&,
-                                                             Order);
-template BatchedConstraints<float> make_batched_constraints(const ConstraintSet<float>&, const Tets&, Order);
-template BatchedConstraints<double> make_batched_constraints(const ConstraintSet<double>&, const Tets&, Order);
+                                                             const ConstraintClassData<double, 4>&, int, const Tets&);
+template BatchedConstraints<float> make_batched_constraints(const ConstraintSet<float>&, const Tets&);
+template BatchedConstraints<double> make_batched_constraints(const ConstraintSet<double>&, const Tets&);
 
 }  // namespace pbs

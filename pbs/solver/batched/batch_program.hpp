@@ -1,8 +1,8 @@
 // The constraints of one class as batches in memory, in the order the kernels work them off: slab by slab, within a
-// slab cluster by cluster, within a cluster kind by kind. A cluster is what stays in the nearest cache.
+// slab cluster by cluster. A cluster is what stays in the nearest cache.
 #pragma once
 
-#include "pbs/packed/groups.hpp"
+#include "pbs/packed/constraint_sequence.hpp"
 #include "pbs/packed/vertex_order.hpp"
 #include "pbs/solver/constraint_set.hpp"
 
@@ -12,7 +12,7 @@ namespace pbs {
 
 // Batches of one kind that follow each other.
 struct BatchRun {
-    GroupKind kind;              // which Batch they are
+    ConstraintKind kind;         // which Batch they are
     int count = 0;               // of batches
     std::size_t first_line = 0;  // where they begin in the program's memory
 };
@@ -28,12 +28,12 @@ template <typename Scalar>
 class BatchProgram {
 public:
     BatchProgram() = default;
-    // Vertices of groups are those of the mesh. dummy_begin: first of the dummy vertices that lanes without a group
-    // work on, dummies_a_slab for each slab.
-    BatchProgram(const std::vector<ConstraintGroup>& groups, const ConstraintValues<Scalar>& values,
+    // Vertices of constraints are those of the mesh. dummy_begin: first of the dummy vertices that lanes without a
+    // constraint work on, dummies_a_slab for each slab.
+    BatchProgram(const std::vector<PackedConstraint>& constraints, const ConstraintValues<Scalar>& values,
                  const VertexOrder& order, int dummy_begin);
 
-    static constexpr int dummies_a_slab = batch_size * largest_group;  // so that a whole batch of them shares none
+    static constexpr int dummies_a_slab = batch_size * 4;  // so that a whole batch of them shares none
 
     const std::vector<BatchRun>& runs(int slab) const { return runs_[slab]; }  // all of a slab
     // Batch<Scalar, run.kind>, run.count of them
@@ -42,30 +42,30 @@ public:
     int batches() const { return static_cast<int>(lanes_ / batch_size); }  // of all slabs
 
     // f(vertices in the new order, rest, stiffness) of every constraint in the order of projection: even slabs, then
-    // odd ones; of each batch the first constraint of every lane, then the second. Sixteen in a row share no vertex.
+    // odd ones. Sixteen in a row share no vertex.
     template <typename F>
     void for_each_constraint(F&& f) const;
 
-    // The part of a slab whose groups have an awake vertex; awake: one entry per vertex in the new order, including
-    // dummies.
+    // The part of a slab whose constraints have an awake vertex; awake: one entry per vertex in the new order,
+    // including dummies.
     std::vector<BatchRun> runs_awake(int slab, const std::vector<char>& awake) const;
-    // Sets the flag of every vertex of a group whose residual at these positions exceeds the tolerance or is not a
+    // Sets the flag of every vertex of a constraint whose residual at these positions exceeds the tolerance or is not a
     // number.
     void mark_unsatisfied(const Scalar* vertices, double tolerance, std::vector<char>& marked) const;
 
-    double fill() const;  // share of lanes that have a group
+    double fill() const;  // share of lanes that have a constraint
 
 private:
     struct alignas(64) CacheLine {
         std::byte bytes[64];
     };
-    template <GroupKind kind>
-    void append(const std::vector<ConstraintGroup>& groups, const std::vector<std::vector<int>>& batches,
+    template <ConstraintKind kind>
+    void append(const std::vector<PackedConstraint>& constraints, const std::vector<std::vector<int>>& batches,
                 const ConstraintValues<Scalar>& values, const VertexOrder& order, int slab, int dummy);
 
     std::vector<CacheLine> lines_;
     std::vector<std::vector<BatchRun>> runs_;  // of each slab
-    std::size_t groups_ = 0, lanes_ = 0;
+    std::size_t constraints_ = 0, lanes_ = 0;
 };
 
 template <typename Scalar>
@@ -75,20 +75,20 @@ void BatchProgram<Scalar>::for_each_constraint(F&& f) const
     const auto of_run = [&](auto kind, const BatchRun& run) {
         const auto* all = static_cast<const Batch<Scalar, kind()>*>(batches(run));
         for (int b = 0; b < run.count; ++b)
-            for (int c = 0; c < GroupShape<kind()>::constraints; ++c)
-                for (int lane = 0; lane < batch_size; ++lane) {
-                    if (all[b].stiffness[c][lane] == Scalar(0)) continue;
-                    auto vertex = GroupShape<kind()>::joins[c];
-                    for (int& v : vertex) v = static_cast<int>(all[b].offset[v][lane] / 4);
-                    f(vertex, all[b].rest[c][lane], all[b].stiffness[c][lane]);
-                }
+            for (int lane = 0; lane < batch_size; ++lane) {
+                if (all[b].stiffness[lane] == Scalar(0)) continue;
+                std::array<int, corners(kind())> vertex;
+                for (std::size_t v = 0; v < vertex.size(); ++v)
+                    vertex[v] = static_cast<int>(all[b].offset[v][lane] / 4);
+                f(vertex, all[b].rest[lane], all[b].stiffness[lane]);
+            }
     };
     for (const int parity : {0, 1})
         for (int slab = parity; slab < slabs(); slab += 2)
             for (const BatchRun& run : runs_[slab]) with_kind(run.kind, [&](auto kind) { of_run(kind, run); });
 }
 
-// A constraint set in the orders `ordered` and `grouped`: where vertices lie, and stretch and volume constraints as
+// A constraint set in the order `ordered`: where vertices lie, and stretch and volume constraints as
 // batches. Scalar: float or double.
 template <typename Scalar>
 struct BatchedConstraints {
@@ -112,20 +112,19 @@ struct ConstraintClassData : ConstraintValues<Scalar> {
     std::vector<std::array<int, vertices>> vertex;
 };
 
-// vertices: #V of the mesh. tets: those whose edges may be grouped, constrained or not. order: ordered or grouped.
+// vertices: #V of the mesh. tets: those by which its vertices are ordered, constrained or not.
 template <typename Scalar>
 BatchedConstraints<Scalar> make_batched_constraints(const ConstraintClassData<Scalar, 2>& stretch,
                                                     const ConstraintClassData<Scalar, 4>& volume, int vertices,
-                                                    const Tets& tets, Order order);
+                                                    const Tets& tets);
 // Batches the stretch and volume constraints of Algorithm 1.
 template <typename Scalar>
-BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets,
-                                                    Order order);
+BatchedConstraints<Scalar> make_batched_constraints(const ConstraintSet<Scalar>& constraints, const Tets& tets);
 
 // Batches those of XPBD, whose stiffness is 1 / alpha here: of an edge [N/m], and of six times the volume of a tet
 // [N/m^5].
 struct XpbdConstraints;
 template <typename Scalar>
-BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& constraints, const Tets& tets, Order order);
+BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& constraints, const Tets& tets);
 
 }  // namespace pbs

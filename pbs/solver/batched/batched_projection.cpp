@@ -88,7 +88,7 @@ double data_bytes(const ProjectionLayout& layout, const BodySize& size)
 template <typename Scalar>
 BatchedProjection<Scalar>::BatchedProjection(const ConstraintSet<Scalar>& constraints, const Tets& tets,
                                              const PbsOptions& options)
-    : batched_(make_batched_constraints(constraints, tets, options.order)),
+    : batched_(make_batched_constraints(constraints, tets)),
       parallel_(batched_.order.slabs() >= slabs_worth_threads ? options.threads : 1),
       edges_(constraints.stretch.size()),
       tets_(constraints.volume.size()),

@@ -1,4 +1,4 @@
-// Orders `ordered` and `grouped` as a Projection: constraints in batches of sixteen that share no vertex
+// The order `ordered` as a Projection: constraints in batches of sixteen that share no vertex
 // (../../packed/batch.hpp), vertices reordered for locality, slabs of the mesh in parallel
 // (../../packed/vertex_order.hpp). The order of projection belongs to the mesh: any machine and any number of threads
 // project alike, and threads give the same bits. It is another order than `plain`; stretch, volume and bind contradict
@@ -44,11 +44,11 @@ private:
     std::vector<BindBatch<Scalar>> bind_;
 };
 
-// See Projection. This class reads the options order, threads and sleep.
+// See Projection. This class reads the options threads and sleep.
 template <typename Scalar>
 class BatchedProjection : public Projection<Scalar> {
 public:
-    // tets: those whose edges may be grouped, constrained or not.
+    // tets: those of the mesh, constrained or not.
     BatchedProjection(const ConstraintSet<Scalar>& constraints, const Tets& tets, const PbsOptions& options);
 
     void load(const Positions& p, const Positions& q, const Vec3& origin) override { particles_.load(p, q, origin); }

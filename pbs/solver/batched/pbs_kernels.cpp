@@ -101,102 +101,87 @@ template <typename Scalar>
     add(Lanes<Scalar>(step * p4.w), n4, p4);
 }
 
-// Part of a batch: as many groups as there are lanes.
-template <typename Scalar, GroupKind kind>
+// Part of a batch: as many constraints as there are lanes.
+template <typename Scalar, ConstraintKind kind>
 struct Part {
     static constexpr int a_batch = batch_size / lanes<Scalar>;
-    using Shape = GroupShape<kind>;
     const Batch<Scalar, kind>* batch;
     int first;  // lane of the batch
 
-    [[gnu::always_inline]] void gather_from(const Scalar* vertices, Vertices<Scalar> (&p)[Shape::vertices]) const
+    [[gnu::always_inline]] void gather_from(const Scalar* vertices, Vertices<Scalar> (&p)[corners(kind)]) const
     {
 #pragma GCC unroll 8
-        for (int v = 0; v < Shape::vertices; ++v) p[v] = gather(vertices, batch->offset[v] + first);
+        for (int v = 0; v < corners(kind); ++v) p[v] = gather(vertices, batch->offset[v] + first);
     }
 
-    [[gnu::always_inline]] void scatter_to(Scalar* vertices, const Vertices<Scalar> (&p)[Shape::vertices]) const
+    [[gnu::always_inline]] void scatter_to(Scalar* vertices, const Vertices<Scalar> (&p)[corners(kind)]) const
     {
 #pragma GCC unroll 8
-        for (int v = 0; v < Shape::vertices; ++v) scatter(p[v], vertices, batch->offset[v] + first);
+        for (int v = 0; v < corners(kind); ++v) scatter(p[v], vertices, batch->offset[v] + first);
     }
 
-    [[gnu::always_inline]] void project(Vertices<Scalar> (&p)[Shape::vertices]) const
+    [[gnu::always_inline]] void project(Vertices<Scalar> (&p)[corners(kind)]) const
     {
-#pragma GCC unroll 8
-        for (int c = 0; c < Shape::constraints; ++c) {
-            const Lanes<Scalar> rest = load(batch->rest[c] + first), k = load(batch->stiffness[c] + first);
-            const auto& join = Shape::joins[c];
-            if constexpr (of_edges<kind>)
-                project_stretch(rest, k, p[join[0]], p[join[1]]);
-            else
-                project_volume(rest, k, p[join[0]], p[join[1]], p[join[2]], p[join[3]]);
-        }
+        const Lanes<Scalar> rest = load(batch->rest + first), k = load(batch->stiffness + first);
+        if constexpr (kind == ConstraintKind::edge)
+            project_stretch(rest, k, p[0], p[1]);
+        else
+            project_volume(rest, k, p[0], p[1], p[2], p[3]);
     }
 
     // The same for XPBD. lambda: of the batch.
     [[gnu::always_inline]] void project_compliant(const Lanes<Scalar>& dt2, Scalar* lambda,
-                                                  Vertices<Scalar> (&p)[Shape::vertices]) const
+                                                  Vertices<Scalar> (&p)[corners(kind)]) const
     {
-#pragma GCC unroll 8
-        for (int c = 0; c < Shape::constraints; ++c) {
-            const Lanes<Scalar> rest = load(batch->rest[c] + first), k = dt2 * load(batch->stiffness[c] + first);
-            Scalar* of_lanes = lambda + c * batch_size + first;
-            Lanes<Scalar> multiplier = load(static_cast<const Scalar*>(of_lanes));
-            const auto& join = Shape::joins[c];
-            if constexpr (of_edges<kind>)
-                project_compliant_stretch(rest, k, multiplier, p[join[0]], p[join[1]]);
-            else
-                project_compliant_volume(rest, k, multiplier, p[join[0]], p[join[1]], p[join[2]], p[join[3]]);
-            store(multiplier, of_lanes);
-        }
+        const Lanes<Scalar> rest = load(batch->rest + first), k = dt2 * load(batch->stiffness + first);
+        Lanes<Scalar> multiplier = load(static_cast<const Scalar*>(lambda + first));
+        if constexpr (kind == ConstraintKind::edge)
+            project_compliant_stretch(rest, k, multiplier, p[0], p[1]);
+        else
+            project_compliant_volume(rest, k, multiplier, p[0], p[1], p[2], p[3]);
+        store(multiplier, lambda + first);
     }
 };
 
-template <typename Scalar, GroupKind kind>
+template <typename Scalar, ConstraintKind kind>
 Part<Scalar, kind> part(const Batch<Scalar, kind>* batches, int i)
 {
     constexpr int a_batch = Part<Scalar, kind>::a_batch;
     return {batches + i / a_batch, i % a_batch * lanes<Scalar>};
 }
 
-// C over its value at rest, of constraint c of every group; zero where there is none.
-template <typename Scalar, GroupKind kind>
-[[gnu::always_inline]] inline Lanes<Scalar> relative_error(const Part<Scalar, kind>& part, const Vertices<Scalar>* p,
-                                                           int c)
+// C over its value at rest; zero where there is no constraint.
+template <typename Scalar, ConstraintKind kind>
+[[gnu::always_inline]] inline Lanes<Scalar> relative_error(const Part<Scalar, kind>& part, const Vertices<Scalar>* p)
 {
-    const Lanes<Scalar> rest = load(part.batch->rest[c] + part.first);
-    const auto& join = GroupShape<kind>::joins[c];
-    if constexpr (of_edges<kind>)
-        return quotient(length(p[join[0]] - p[join[1]]) - rest, rest);
+    const Lanes<Scalar> rest = load(part.batch->rest + part.first);
+    if constexpr (kind == ConstraintKind::edge)
+        return quotient(length(p[0] - p[1]) - rest, rest);
     else
-        return quotient(dot(cross(p[join[1]] - p[join[0]], p[join[2]] - p[join[0]]), p[join[3]] - p[join[0]]) - rest,
-                        rest);
+        return quotient(dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) - rest, rest);
 }
 
-// A part does not wait for the stores of the one before: they share no vertex (../../packed/groups.hpp).
-template <typename Scalar, GroupKind kind>
+// A part does not wait for the stores of the one before: they share no vertex (../../packed/constraint_sequence.hpp).
+template <typename Scalar, ConstraintKind kind>
 [[gnu::noinline]] void project_all(const Batch<Scalar, kind>* batches, int count, Scalar* vertices)
 {
     for (int i = 0; i < count * Part<Scalar, kind>::a_batch; ++i) {
-        Vertices<Scalar> p[GroupShape<kind>::vertices];
+        Vertices<Scalar> p[corners(kind)];
         part(batches, i).gather_from(vertices, p);
         part(batches, i).project(p);
         part(batches, i).scatter_to(vertices, p);
     }
 }
 
-template <typename Scalar, GroupKind kind>
+template <typename Scalar, ConstraintKind kind>
 [[gnu::noinline]] void project_all(const Batch<Scalar, kind>* batches, int count, Scalar dt2, Scalar* multipliers,
                                    Scalar* vertices)
 {
-    using Shape = GroupShape<kind>;
     for (int i = 0; i < count * Part<Scalar, kind>::a_batch; ++i) {
-        Vertices<Scalar> p[Shape::vertices];
+        Vertices<Scalar> p[corners(kind)];
         const auto constraint = part(batches, i);
         constraint.gather_from(vertices, p);
-        constraint.project_compliant(Lanes<Scalar>(dt2),
-                                     multipliers + i / constraint.a_batch * Shape::constraints * batch_size, p);
+        constraint.project_compliant(Lanes<Scalar>(dt2), multipliers + i / constraint.a_batch * batch_size, p);
         constraint.scatter_to(vertices, p);
     }
 }
@@ -236,7 +221,7 @@ template <typename Scalar, typename Constraint, typename Project>
 }  // namespace
 
 template <typename Scalar>
-void project_batches(GroupKind kind, const void* batches, int count, Scalar* vertices)
+void project_batches(ConstraintKind kind, const void* batches, int count, Scalar* vertices)
 {
     with_kind(kind, [&](auto of_kind) {
         project_all<Scalar, of_kind()>(static_cast<const Batch<Scalar, of_kind()>*>(batches), count, vertices);
@@ -261,22 +246,19 @@ void project_bind_batches(const BindBatch<Scalar>* batches, int count, Scalar* v
 }
 
 template <typename Scalar>
-double sum_squared_errors(GroupKind kind, const void* batches, int count, const Scalar* vertices)
+double sum_squared_errors(ConstraintKind kind, const void* batches, int count, const Scalar* vertices)
 {
     return with_kind(kind, [&](auto of_kind) {
-        using Shape = GroupShape<of_kind()>;
         constexpr int parts_in_scalar = 32;  // then on in double
         const int parts = count * Part<Scalar, of_kind()>::a_batch;
         Lanes<Scalar> sum = Scalar(0);
         double total = 0.0;
         for (int i = 0; i < parts; ++i) {
             const auto constraint = part(static_cast<const Batch<Scalar, of_kind()>*>(batches), i);
-            Vertices<Scalar> p[Shape::vertices];
+            Vertices<Scalar> p[corners(of_kind())];
             constraint.gather_from(vertices, p);
-            for (int c = 0; c < Shape::constraints; ++c) {
-                const Lanes<Scalar> error = relative_error(constraint, p, c);
-                sum += error * error;
-            }
+            const Lanes<Scalar> error = relative_error(constraint, p);
+            sum += error * error;
             if (i % parts_in_scalar != parts_in_scalar - 1 && i + 1 != parts) continue;
             for (int lane = 0; lane < lanes<Scalar>; ++lane) total += sum[lane];
             sum = Scalar(0);
@@ -286,20 +268,15 @@ double sum_squared_errors(GroupKind kind, const void* batches, int count, const 
 }
 
 template <typename Scalar>
-void largest_errors(GroupKind kind, const void* batches, int count, const Scalar* vertices, Scalar* errors)
+void largest_errors(ConstraintKind kind, const void* batches, int count, const Scalar* vertices, Scalar* errors)
 {
     with_kind(kind, [&](auto of_kind) {
-        using Shape = GroupShape<of_kind()>;
         for (int i = 0; i < count * Part<Scalar, of_kind()>::a_batch; ++i) {
             const auto constraint = part(static_cast<const Batch<Scalar, of_kind()>*>(batches), i);
-            Vertices<Scalar> p[Shape::vertices];
+            Vertices<Scalar> p[corners(of_kind())];
             constraint.gather_from(vertices, p);
-            Lanes<Scalar> largest = Scalar(0);
-            for (int c = 0; c < Shape::constraints; ++c) {
-                const Lanes<Scalar> error = abs(relative_error(constraint, p, c));
-                where(largest == largest && !(error <= largest), largest) = error;  // not a number stays
-            }
-            largest.copy_to(errors + i * lanes<Scalar>, std::experimental::element_aligned);
+            const Lanes<Scalar> error = abs(relative_error(constraint, p));
+            error.copy_to(errors + i * lanes<Scalar>, std::experimental::element_aligned);
         }
     });
 }
@@ -339,19 +316,19 @@ const char* kernel_instructions()
 #endif
 }
 
-template void project_batches(GroupKind, const void*, int, float*);
-template void project_batches(GroupKind, const void*, int, double*);
-template double sum_squared_errors(GroupKind, const void*, int, const float*);
-template double sum_squared_errors(GroupKind, const void*, int, const double*);
+template void project_batches(ConstraintKind, const void*, int, float*);
+template void project_batches(ConstraintKind, const void*, int, double*);
+template double sum_squared_errors(ConstraintKind, const void*, int, const float*);
+template double sum_squared_errors(ConstraintKind, const void*, int, const double*);
 template double sum_squared_bind_errors(const BindBatch<float>*, int, const float*);
 template double sum_squared_bind_errors(const BindBatch<double>*, int, const double*);
-template void largest_errors(GroupKind, const void*, int, const float*, float*);
-template void largest_errors(GroupKind, const void*, int, const double*, double*);
+template void largest_errors(ConstraintKind, const void*, int, const float*, float*);
+template void largest_errors(ConstraintKind, const void*, int, const double*, double*);
 template void project_bind_batches(const BindBatch<float>*, int, float*);
 template void project_bind_batches(const BindBatch<double>*, int, double*);
 
 template <typename Scalar>
-void project_compliant_batches(GroupKind kind, const void* batches, int count, Scalar dt2, Scalar* multipliers,
+void project_compliant_batches(ConstraintKind kind, const void* batches, int count, Scalar dt2, Scalar* multipliers,
                                Scalar* vertices)
 {
     with_kind(kind, [&](auto of_kind) {
@@ -360,8 +337,8 @@ void project_compliant_batches(GroupKind kind, const void* batches, int count, S
     });
 }
 
-template void project_compliant_batches(GroupKind, const void*, int, float, float*, float*);
-template void project_compliant_batches(GroupKind, const void*, int, double, double*, double*);
+template void project_compliant_batches(ConstraintKind, const void*, int, float, float*, float*);
+template void project_compliant_batches(ConstraintKind, const void*, int, double, double*, double*);
 
 template <typename Scalar>
 void project_pose_edges(const PoseEdge<Scalar>* edges, std::size_t count, const Scalar* stiffness, Scalar* poses)

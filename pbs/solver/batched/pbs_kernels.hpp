@@ -1,4 +1,4 @@
-// The inner loops of the orders `ordered` and `grouped`, compiled for the machine (PBS_NATIVE): raw pointers only.
+// The inner loops of the order `ordered`, compiled for the machine (PBS_NATIVE): raw pointers only.
 // vertices: x, y, z [m] and w, the inverse mass, of each, 16 bytes aligned in float, 32 in double.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace pbs {
 
 // Projects `count` batches, Batch<Scalar, kind>, one after the other.
 template <typename Scalar>
-void project_batches(GroupKind kind, const void* batches, int count, Scalar* vertices);
+void project_batches(ConstraintKind kind, const void* batches, int count, Scalar* vertices);
 
 // Projects the bind constraints of vertices 0 .. 16 count - 1.
 template <typename Scalar>
@@ -19,10 +19,10 @@ void project_bind_batches(const BindBatch<Scalar>* batches, int count, Scalar* v
 
 // Sum over the constraints of (l / l0 - 1)^2, (V / V0 - 1)^2, and of bind's C^2 [m^2].
 template <typename Scalar>
-double sum_squared_errors(GroupKind kind, const void* batches, int count, const Scalar* vertices);
-// The largest |l / l0 - 1| or |V / V0 - 1| of each group, batch_size a batch; zero for lanes without one.
+double sum_squared_errors(ConstraintKind kind, const void* batches, int count, const Scalar* vertices);
+// The largest |l / l0 - 1| or |V / V0 - 1| of each constraint, batch_size a batch; zero for lanes without one.
 template <typename Scalar>
-void largest_errors(GroupKind kind, const void* batches, int count, const Scalar* vertices, Scalar* errors);
+void largest_errors(ConstraintKind kind, const void* batches, int count, const Scalar* vertices, Scalar* errors);
 // Residuals of the bind constraints of vertices 0 .. 16 count - 1 [m^2].
 template <typename Scalar>
 double sum_squared_bind_errors(const BindBatch<Scalar>* batches, int count, const Scalar* vertices);
@@ -30,7 +30,7 @@ double sum_squared_bind_errors(const BindBatch<Scalar>* batches, int count, cons
 int kernel_lanes(int bytes_of_scalar);  // numbers that these kernels work on at once
 const char* kernel_instructions();      // AVX-512, AVX2, AVX, SSE2, baseline
 
-// The inner loops of XPBD in the orders `ordered` and `grouped`, compiled for the machine (PBS_NATIVE): raw pointers
+// The inner loops of XPBD in the order `ordered`, compiled for the machine (PBS_NATIVE): raw pointers
 // only. They are twins of project_batches: the same batches and vertices, with a compliance and a multiplier for each
 // constraint. A batch's stiffness is 1 / alpha here: of an edge [N/m], and of six times the volume of a tet [N/m^5];
 // zero: there is no constraint. vertices: x, y, z [m] and w [1/kg] of each, 16 bytes aligned in float, 32 in double.
@@ -38,7 +38,7 @@ const char* kernel_instructions();      // AVX-512, AVX2, AVX, SSE2, baseline
 // Projects `count` batches, Batch<Scalar, kind>, one after the other. dt2: the square of the substep [s^2].
 // multipliers: lambda of each constraint of each batch in each lane, by batches, then constraints, 64 bytes aligned.
 template <typename Scalar>
-void project_compliant_batches(GroupKind kind, const void* batches, int count, Scalar dt2, Scalar* multipliers,
+void project_compliant_batches(ConstraintKind kind, const void* batches, int count, Scalar dt2, Scalar* multipliers,
                                Scalar* vertices);
 
 // Constraints as many poses of a mesh are projected with side by side. Plain data, for builders and kernels alike.

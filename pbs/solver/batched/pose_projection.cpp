@@ -6,9 +6,9 @@ namespace pbs {
 
 template <typename Scalar>
 PoseProgram<Scalar> make_pose_program(const ConstraintSet<Scalar>& constraints, const Tets& tets,
-                                      const std::vector<bool>& jiggle_zone, Order order)
+                                      const std::vector<bool>& jiggle_zone)
 {
-    const BatchedConstraints<Scalar> batched = make_batched_constraints(constraints, tets, order);
+    const BatchedConstraints<Scalar> batched = make_batched_constraints(constraints, tets);
     const std::vector<int>& old_of_new = batched.order.old_of_new;
     const auto w = [&](int i) { return constraints.inverse_mass[old_of_new[i]]; };
     const auto jiggles = [&](int i) { return !jiggle_zone.empty() && jiggle_zone[old_of_new[i]]; };
@@ -97,10 +97,8 @@ void PoseBlock<Scalar>::project_volume_constraints()
     project_pose_tets(program_->tets.data(), program_->tets.size(), stiffness_[0].pose, poses_.data()->pose);
 }
 
-template PoseProgram<float> make_pose_program(const ConstraintSet<float>&, const Tets&, const std::vector<bool>&,
-                                              Order);
-template PoseProgram<double> make_pose_program(const ConstraintSet<double>&, const Tets&, const std::vector<bool>&,
-                                               Order);
+template PoseProgram<float> make_pose_program(const ConstraintSet<float>&, const Tets&, const std::vector<bool>&);
+template PoseProgram<double> make_pose_program(const ConstraintSet<double>&, const Tets&, const std::vector<bool>&);
 template class PoseBlock<float>;
 template class PoseBlock<double>;
 

@@ -21,7 +21,7 @@ struct PoseProgram {
 // constraints: with stiffness one wherever any pose has one. jiggle_zone: #V, or empty.
 template <typename Scalar>
 PoseProgram<Scalar> make_pose_program(const ConstraintSet<Scalar>& constraints, const Tets& tets,
-                                      const std::vector<bool>& jiggle_zone, Order order);
+                                      const std::vector<bool>& jiggle_zone);
 
 // A block of poses while it is projected. Lanes without a pose stay at zero.
 template <typename Scalar>

@@ -42,7 +42,7 @@ std::vector<pbs::Positions> played(const pbs::PbsOptions& options, bool foreseen
 
 TEST(FramesAhead, AreThoseOfOneByOneToTheBit)
 {
-    for (const pbs::Order order : {pbs::Order::ordered, pbs::Order::grouped})
+    for (const pbs::Order order : {pbs::Order::ordered})
         for (const pbs::Precision precision : {pbs::Precision::f32, pbs::Precision::f64}) {
             pbs::PbsOptions options;
             options.order = order;

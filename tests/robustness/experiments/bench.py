@@ -53,7 +53,7 @@ class Bench(foreign_arm.ArmTest):
         self.assertEqual(len(kinds), len(set(kinds)))
         for precision in ("f32", "f64"):
             self.assertIn(("plain", precision, 1), kinds)
-            for variant in ("ordered", "grouped", "poses"):
+            for variant in ("ordered", "poses"):
                 self.assertLessEqual({(variant, precision, 1), (variant, precision, 2)}, set(kinds))
         codes = {(timing["deformer"], timing["order"], timing["precision"]) for timing in record["deformers"]}
         self.assertLessEqual({("lbs", "plain", "f64"), ("lbs", "packed", "f32"), ("dqs", "packed", "f64")}, codes)
@@ -101,13 +101,13 @@ class Bench(foreign_arm.ArmTest):
                 self.assertLessEqual(expected, timing.keys(), timing["deformer"])
         for deformer in ("pbs", "xpbd"):
             codes = {(timing["order"], timing["precision"]) for timing in timed if timing["deformer"] == deformer}
-            orders = "plain", "spread", "ordered", "grouped"
+            orders = "plain", "spread", "ordered"
             self.assertEqual(codes, {(order, precision) for order in orders for precision in ("f32", "f64")})
 
     def test_the_record_goes_into_a_folder(self):
         process = self.succeeds("bench", "--quick", "--mesh", self.path("arm.msh"), "-o", self.path("out"))
         self.assertIn("results", self.json("out", "bench.json"))
-        for word in ("ordered", "grouped", "poses", "ratio_to_plain_spread", "ratio_to_plain", "lbs", "xpbd", "gb_s"):
+        for word in ("ordered", "poses", "ratio_to_plain_spread", "ratio_to_plain", "lbs", "xpbd", "gb_s"):
             self.assertIn(word, process.stdout)
 
     def test_sizes_tell_how_the_cost_grows(self):

@@ -286,11 +286,11 @@ class Compared(unittest.TestCase):
         holding, failing = ([case(value, holds, body=body) for body in "abcde"]
                             for value, holds in ((1.0, True), (0.5, False)))
         judged = claim("C04", "holds", holding, readings=[selection("plain f32", holding),
-                                                          selection("grouped f32", failing)],
+                                                          selection("ordered f32", failing)],
                        compared=[selection("DQS", failing),
                                  selection("the author's later code", failing[:2] + holding[2:])])
         told = sentences.disagreements(judged)
-        self.assertEqual([text.split(" and ")[0] for text in told], ["Grouped f32", "The author's later code"])
+        self.assertEqual([text.split(" and ")[0] for text in told], ["Ordered f32", "The author's later code"])
         self.assertIn("the threshold holds in half of the cases or fewer in the one, throughout in the other", told[0])
         self.assertEqual(sentences.disagreements(claim("C04", "inconclusive",
                                                        readings=[selection("plain f32", holding)])), [])

@@ -113,13 +113,13 @@ TEST_P(ContactIn, StaysBoundedFromTeleportedCollapsedAndMirroredStatesWithTimeSt
 
 std::string name_of_case(const testing::TestParamInfo<std::tuple<Order, Precision>>& info)
 {
-    const char* const orders[] = {"plain", "ordered", "grouped"};
+    const char* const orders[] = {"plain", "ordered"};
     return std::string(orders[int(std::get<0>(info.param))]) +
            (std::get<1>(info.param) == Precision::f32 ? "_f32" : "_f64");
 }
 
 INSTANTIATE_TEST_SUITE_P(Orders, ContactIn,
-                         testing::Combine(testing::Values(Order::plain, Order::ordered, Order::grouped),
+                         testing::Combine(testing::Values(Order::plain, Order::ordered),
                                           testing::Values(Precision::f32, Precision::f64)),
                          name_of_case);
 

@@ -1,10 +1,9 @@
 // Reference: order `plain`. Stretch, volume and bind contradict each other, so every order of projection converges to a
 // limit of its own. The test measures how far those lie from plain's on a limb twisted by 90 and bent by 60 degrees,
 // after the paper's 24 iterations. `ordered` must not be worse than plain by more than random orders of the plain loops
-// differ among themselves, some 1 % in stretch; in volume, its colours leave less than plain (groups.hpp), and it must
-// not be worse at all. The bounds of `grouped`, 9 % and 19 %, are regression values, not theory: its bias as once
-// measured on a bar of 20,000 vertices. Meshes are irregular: on a regular grid the file order itself is special, 20 to
-// 30 % below random orders of the same loops.
+// differ among themselves, some 1 % in stretch; in volume, its colours leave less than plain (constraint_sequence.hpp),
+// and it must not be worse at all. Meshes are irregular: on a regular grid the file order itself is special, 20 to 30 %
+// below random orders of the same loops.
 #include "pbs/solver/pbs_solver.hpp"
 
 #include "experiments/meshes/meshing.hpp"
@@ -55,8 +54,8 @@ Bias bias_of(const TwoBoneLimb& body, Order order, Precision precision)
     const pbs::Residuals plain = residuals_after_24(body, Order::plain, precision),
                          other = residuals_after_24(body, order, precision);
     const Bias bias{other.stretch_rms / plain.stretch_rms - 1.0, other.volume_rms / plain.volume_rms - 1.0};
-    const std::string name = std::string(order == Order::ordered ? "ordered" : "grouped") +
-                             (precision == Precision::f32 ? "_f32" : "_f64") + "_" + std::to_string(body.lbs.rows());
+    const std::string name = std::string("ordered") + (precision == Precision::f32 ? "_f32" : "_f64") + "_" +
+                             std::to_string(body.lbs.rows());
     testing::Test::RecordProperty(name + "_stretch_bias_pct", std::to_string(100 * bias.stretch));
     testing::Test::RecordProperty(name + "_volume_bias_pct", std::to_string(100 * bias.volume));
     std::printf("%s vertices: stretch residual %+.2f %%, volume residual %+.2f %% of plain's\n", name.c_str(),
@@ -119,23 +118,12 @@ TEST(Orders, SpreadIsPlainOnTheSpreadList)
     EXPECT_NE(spread, projected(file_order, Order::plain));
 }
 
-// The order is offered with its bias, which is documented.
-TEST(Orders, GroupedHasABiasOfItsOwn)
-{
-    for (const TwoBoneLimb* body : {&limb(), &bar()})
-        for (const Precision precision : {Precision::f32, Precision::f64}) {
-            const Bias bias = bias_of(*body, Order::grouped, precision);
-            EXPECT_LT(std::abs(bias.stretch), 0.09);
-            EXPECT_LT(std::abs(bias.volume), 0.19);
-        }
-}
-
 // Precision is not an order: in each order, residuals in float and double differ by rounding alone. The limb is coarse,
 // since the bound of the rounding needs many steps.
 TEST(Orders, PrecisionsAgreeInEachOrder)
 {
     const TwoBoneLimb body = twisted_and_bent(pbs::mesh_limb(600));
-    for (const Order order : {Order::plain, Order::ordered, Order::grouped, Order::spread}) {
+    for (const Order order : {Order::plain, Order::ordered, Order::spread}) {
         PbsOptions options;
         options.order = order;
         const ResidualRounding rounding = residual_rounding(body, options);

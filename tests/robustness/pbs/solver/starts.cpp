@@ -80,7 +80,7 @@ template <typename Expect>
 void for_each_start_and_order(Expect expect, const std::vector<Start>& from = starts())
 {
     for (const auto& [name, start] : from)
-        for (const Order order : {Order::plain, Order::ordered, Order::grouped})
+        for (const Order order : {Order::plain, Order::ordered})
             for (const Precision precision : {Precision::f32, Precision::f64}) {
                 SCOPED_TRACE(testing::Message() << name << " order " << int(order) << " precision " << int(precision));
                 expect(start, order, precision);

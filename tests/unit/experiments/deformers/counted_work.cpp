@@ -68,7 +68,7 @@ TEST(CountedWork, IsThatOfTheMethod)
                           [](auto& options) { options = {.model = reference_fem::Model::linear, .element_order = 1}; }),
          {.linear_solves = 1}}};
     for (const char* kind : {"xpbd", "xpbd_small_steps"})
-        for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered, pbs::Order::grouped}) {
+        for (const pbs::Order order : {pbs::Order::plain, pbs::Order::ordered}) {
             DeformerSpec spec =
                 with<pbs::XpbdOptions>(kind, [](auto& options) { options.iterations = 3, options.substeps = 2; });
             options_of<pbs::XpbdOptions>(spec).order = order;

@@ -198,7 +198,7 @@ TEST_P(Poses, ThreadsChangeNoBit)
 }
 
 INSTANTIATE_TEST_SUITE_P(Orders, Poses,
-                         testing::Combine(testing::Values(Order::ordered, Order::grouped),
+                         testing::Combine(testing::Values(Order::ordered),
                                           testing::Values(Precision::f32, Precision::f64)));
 
 TEST(PosesSolver, ANonFinitePoseSpoilsNoOther)
@@ -220,8 +220,7 @@ TEST(PosesSolver, RefusesWhatPosesCannotDifferIn)
         PosesSolver(limb.mesh, limb.binding.distance, {}, options);
     };
     using Change = void (*)(PbsOptions&);
-    const Change refused[] = {[](PbsOptions& o) { o.order = Order::grouped; },
-                              [](PbsOptions& o) { o.order = Order::plain; },
+    const Change refused[] = {[](PbsOptions& o) { o.order = Order::plain; },
                               [](PbsOptions& o) { o.precision = Precision::f64; },
                               [](PbsOptions& o) { o.masses = pbs::Masses::lumped; },
                               [](PbsOptions& o) { o.jiggle = pbs::Jiggle{}; },

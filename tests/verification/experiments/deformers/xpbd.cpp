@@ -101,10 +101,8 @@ INSTANTIATE_TEST_SUITE_P(OfOrdersAndVolume, XpbdAtRest,
                                          std::tuple{std::pair{100, 1}, pbs::Order::plain, 0.25},
                                          std::tuple{std::pair{10, 10}, pbs::Order::plain, 0.25},
                                          std::tuple{std::pair{10, 10}, pbs::Order::ordered, 0.25},
-                                         std::tuple{std::pair{10, 10}, pbs::Order::grouped, 0.25},
                                          std::tuple{std::pair{10, 10}, pbs::Order::plain, 0.4},
                                          std::tuple{std::pair{10, 10}, pbs::Order::ordered, 0.4},
-                                         std::tuple{std::pair{10, 10}, pbs::Order::grouped, 0.4},
                                          std::tuple{std::pair{10, 10}, pbs::Order::spread, 0.4}));
 
 // One iteration per substep does not solve the substep; the error falls with its length.

@@ -164,14 +164,14 @@ TEST(CandyWrapperFigures, AreThoseOfTheOwnMeshInEachOrderAndDoWithoutTheReferenc
 {
     const ArtefactCase of = test_support::small_limb(ArtefactCase::Claim::candy_wrapper);
     const ArtefactBody body(of);
-    const std::vector<ArtefactSample> samples = {sample("pbs", 0, 0.95),      sample("pbs", 0, 0.8, 0, "grouped"),
+    const std::vector<ArtefactSample> samples = {sample("pbs", 0, 0.95),      sample("pbs", 0, 0.8, 0, "ordered"),
                                                  sample("pbs", 0, 0.85),      sample("lbs", 0, 0.1),
                                                  sample("reference", 0, 1.1), sample("pbs", 2, 0.9)};
     const auto measurements = section_values(of, body, samples);
     const auto own = of_quantity(measurements, "smallest_section_radius_over_rest", "pbs");
     ASSERT_EQ(own.size(), 3u);
     EXPECT_EQ(own[0].value, 0.8);
-    EXPECT_EQ(text_of(own[0].of), "limb, bend, upper|forearm, 30 deg, pbs, grouped, f64");
+    EXPECT_EQ(text_of(own[0].of), "limb, bend, upper|forearm, 30 deg, pbs, ordered, f64");
     EXPECT_EQ(own[1].value, 0.95);
     EXPECT_EQ(own[1].low, 0.85);
     EXPECT_EQ(text_of(own[1].of), "limb, bend, upper|forearm, 30 deg, pbs, plain, f64");

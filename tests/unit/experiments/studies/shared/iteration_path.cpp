@@ -64,7 +64,7 @@ TEST_P(IterationPathOf, LeadsWhereTheSolverGoesToTheBitAndHasItsResiduals)
 INSTANTIATE_TEST_SUITE_P(Orders, IterationPathOf,
                          testing::Values(std::pair(Order::plain, Precision::f64),
                                          std::pair(Order::ordered, Precision::f32),
-                                         std::pair(Order::grouped, Precision::f64)));
+                                         std::pair(Order::ordered, Precision::f64)));
 
 // A coordinate of at most 1.1 is rounded once by the scale, over a cell of at least 0.075: 2 / 0.075 = 27 roundings of
 // an edge and 80 of a volume, which goes through ten of products of at most five times its size. A ratio contains two

@@ -3,7 +3,6 @@
 
 #include "pbs/geometry/topology.hpp"
 #include "pbs/solver/batched/batch_program.hpp"
-#include "tests/support/expect_groups.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/tet_rings.hpp"
 
@@ -16,8 +15,8 @@ namespace {
 
 using namespace test_support;
 using pbs::BatchProgram;
-using pbs::ConstraintGroup;
-using pbs::GroupKind;
+using pbs::ConstraintKind;
+using pbs::PackedConstraint;
 using pbs::VertexOrder;
 
 template <typename Scalar>
@@ -26,7 +25,7 @@ class BatchPrograms : public testing::Test {
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(BatchPrograms, Scalars);
 
-// Calls f(batch, kind) for every batch of a slab.
+// Calls f(batch) for every batch of a slab.
 template <typename Scalar, typename F>
 void for_each_batch(const BatchProgram<Scalar>& program, int slab, F f)
 {
@@ -34,7 +33,7 @@ void for_each_batch(const BatchProgram<Scalar>& program, int slab, F f)
         pbs::with_kind(run.kind, [&](auto kind) {
             const auto* batches = static_cast<const pbs::Batch<Scalar, kind()>*>(program.batches(run));
             EXPECT_EQ(reinterpret_cast<std::uintptr_t>(batches) % 64, 0u);
-            for (int b = 0; b < run.count; ++b) f(batches[b], kind);
+            for (int b = 0; b < run.count; ++b) f(batches[b]);
         });
 }
 
@@ -67,11 +66,11 @@ struct ReadBack {
     void read(const BatchProgram<Scalar>& program)
     {
         for (int slab = 0; slab < order.slabs(); ++slab)
-            for_each_batch(program, slab, [&](const auto& batch, auto kind) {
+            for_each_batch(program, slab, [&](const auto& batch) {
                 std::set<int> in_batch;
                 for (int lane = 0; lane < pbs::batch_size; ++lane) {
                     read_vertices(batch, lane, slab, in_batch);
-                    read_constraints<kind()>(batch, lane);
+                    read_constraint(batch, lane);
                 }
                 touched[slab].insert(in_batch.begin(), in_batch.end());
             });
@@ -93,19 +92,14 @@ struct ReadBack {
                   slab + is_group);
     }
 
-    template <pbs::GroupKind kind>
-    void read_constraints(const auto& batch, int lane)
+    void read_constraint(const auto& batch, int lane)
     {
-        for (int c = 0; c < pbs::GroupShape<kind>::constraints; ++c) {
-            const int constraint = static_cast<int>(batch.rest[c][lane]) - 1;
-            EXPECT_EQ(batch.stiffness[c][lane], constraint < 0 ? Scalar(0) : values.stiffness[constraint]);
-            if (constraint < 0) continue;
-            ++uses[constraint];
-            std::vector<int> joined;
-            for (const int v : pbs::GroupShape<kind>::joins[c])
-                joined.push_back(order.old_of_new[batch.offset[v][lane] / 4]);
-            EXPECT_TRUE(std::is_permutation(joined.begin(), joined.end(), constraints[constraint].begin()));
-        }
+        const int constraint = static_cast<int>(batch.rest[lane]) - 1;
+        EXPECT_EQ(batch.stiffness[lane], constraint < 0 ? Scalar(0) : values.stiffness[constraint]);
+        if (constraint < 0) return;
+        ++uses[constraint];
+        for (std::size_t v = 0; v < corners; ++v)
+            EXPECT_EQ(order.old_of_new[batch.offset[v][lane] / 4], constraints[constraint][v]);
     }
 };
 
@@ -121,7 +115,7 @@ void expect_disjoint(const std::vector<std::set<int>>& touched_by)
 }
 
 template <typename Scalar, std::size_t corners>
-void expect_sound(const std::vector<ConstraintGroup>& groups, const std::vector<std::array<int, corners>>& constraints,
+void expect_sound(const std::vector<PackedConstraint>& groups, const std::vector<std::array<int, corners>>& constraints,
                   const VertexOrder& order)
 {
     const int dummy_begin = 16 * ((static_cast<int>(order.old_of_new.size()) + 15) / 16);
@@ -140,15 +134,13 @@ void expect_sound(const pbs::Tets& tets, int vertices, int vertices_a_slab)
     const VertexOrder order = pbs::order_vertices(tets, vertices, vertices_a_slab);
     const auto edges = rows_of(pbs::edges_of(tets));
     const auto rows = rows_of(tets);
-    expect_sound<Scalar>(pbs::single_edges(edges), edges, order);
-    expect_sound<Scalar>(pbs::grouped_edges(edges, tets), edges, order);
-    expect_sound<Scalar>(pbs::single_tets(rows), rows, order);
-    expect_sound<Scalar>(pbs::grouped_tets(rows), rows, order);
+    expect_sound<Scalar>(pbs::packed_edges(edges), edges, order);
+    expect_sound<Scalar>(pbs::packed_tets(rows), rows, order);
 }
 
 // Checks that a cluster has its own range of batches.
 template <typename Scalar>
-void expect_two_runs(const std::vector<ConstraintGroup>& groups, GroupKind kind, const VertexOrder& order)
+void expect_two_runs(const std::vector<PackedConstraint>& groups, ConstraintKind kind, const VertexOrder& order)
 {
     const BatchProgram<Scalar> program(groups, numbered<Scalar>(groups.size()), order,
                                        static_cast<int>(order.old_of_new.size()));
@@ -180,8 +172,8 @@ TYPED_TEST(BatchPrograms, SeveralClustersInASlab)
     expect_sound<TypeParam>(large.tets, vertices, 100000);
     const VertexOrder order = pbs::order_vertices(large.tets, vertices, 100000);
     ASSERT_EQ(order.slabs(), 1);
-    expect_two_runs<TypeParam>(pbs::single_tets(rows_of(large.tets)), GroupKind::tet, order);
-    expect_two_runs<TypeParam>(pbs::single_edges(rows_of(pbs::edges_of(large.tets))), GroupKind::edge, order);
+    expect_two_runs<TypeParam>(pbs::packed_tets(rows_of(large.tets)), ConstraintKind::tet, order);
+    expect_two_runs<TypeParam>(pbs::packed_edges(rows_of(pbs::edges_of(large.tets))), ConstraintKind::edge, order);
 }
 
 TYPED_TEST(BatchPrograms, NoGroupsAreNoBatches)
@@ -198,7 +190,7 @@ TYPED_TEST(BatchPrograms, ConstraintsInTheOrderOfProjection)
 {
     const VertexOrder order = pbs::order_vertices(bar.tets, bar_vertices, 30);
     const auto tets = rows_of(bar.tets);
-    const BatchProgram<TypeParam> program(pbs::grouped_tets(tets), numbered<TypeParam>(tets.size()), order,
+    const BatchProgram<TypeParam> program(pbs::packed_tets(tets), numbered<TypeParam>(tets.size()), order,
                                           bar_vertices);
     std::vector<int> uses(tets.size(), 0);
     program.for_each_constraint([&](const auto& vertex, TypeParam rest, TypeParam stiffness) {

@@ -18,7 +18,7 @@ namespace {
 
 using namespace test_support;
 using pbs::Vec3;
-using enum pbs::GroupKind;
+using enum pbs::ConstraintKind;
 
 // The corners of a tet, and the points that may follow around its first edge; any three neighbours in the ring make a
 // well-shaped tet.
@@ -94,8 +94,8 @@ struct Kernel {
     int vertices;
     std::vector<std::vector<int>> links;  // the vertices of each constraint
     void (*project)(Sixteen<Scalar>&);
-    // Groups alone have it. It returns the sum of squares of the errors l / l0 - 1 and V / V0 - 1, and the largest in
-    // each lane.
+    // Batches of edges and tets alone have it. It returns the sum of squares of the errors l / l0 - 1 and V / V0 - 1,
+    // and the largest in each lane.
     std::pair<double, std::array<Scalar, lanes>> (*errors)(const Sixteen<Scalar>&) = nullptr;
     RandomPoints random{31};
 
@@ -123,7 +123,7 @@ struct Kernel {
         }
     }
 
-    // Bit v of `pinned` marks vertex v of the first lane; of groups, each lane has other pinned vertices. Poses share
+    // Bit v of `pinned` marks vertex v of the first lane; of batches, each lane has other pinned vertices. Poses share
     // their masses.
     void set_mass(Sixteen<Scalar>& on, int lane, int v, int pinned)
     {
@@ -197,30 +197,25 @@ Kernel<typename Of::Scalar> kernel_of(const char* name)
 {
     return {name, Of::one_body, Of::compliant, Of::vertices, Of::links(), [](auto& on) { Of::project(on); }};
 }
-template <typename S, pbs::GroupKind kind>
-Kernel<S> group_of(const char* name)
+template <typename S, pbs::ConstraintKind kind>
+Kernel<S> batch_of(const char* name)
 {
-    auto group = kernel_of<Groups<S, kind>>(name);
-    group.errors = [](const Sixteen<S>& on) {
-        const auto batch = Groups<S, kind>::packed(on);
+    auto kernel = kernel_of<Batched<S, kind>>(name);
+    kernel.errors = [](const Sixteen<S>& on) {
+        const auto batch = Batched<S, kind>::packed(on);
         std::array<S, lanes> largest;
         pbs::largest_errors<S>(kind, &batch.batch, 1, batch.xyzw[0], largest.data());
         return std::pair{pbs::sum_squared_errors<S>(kind, &batch.batch, 1, batch.xyzw[0]), largest};
     };
-    return group;
+    return kernel;
 }
 
 // Each call returns them with the same random numbers.
 template <typename S>
 std::vector<Kernel<S>> kernels()
 {
-    return {group_of<S, edge>("edge"),
-            group_of<S, edge_wedge>("edge_wedge"),
-            group_of<S, edge_triangle>("edge_triangle"),
-            group_of<S, edge_tet>("edge_tet"),
-            group_of<S, tet>("tet"),
-            group_of<S, tet_fan_2>("tet_fan_2"),
-            group_of<S, tet_fan_3>("tet_fan_3"),
+    return {batch_of<S, edge>("edge"),
+            batch_of<S, tet>("tet"),
             kernel_of<Compliant<S, edge>>("compliant edge"),
             kernel_of<Compliant<S, tet>>("compliant tet"),
             kernel_of<BindBatches<S>>("bind batches"),
@@ -271,7 +266,7 @@ TYPED_TEST(KernelContract, DegenerateTetsAndEdges)
 {
     for (auto& kernel : kernels<TypeParam>()) {
         const std::size_t corners = kernel.links[0].size();
-        if (kernel.links.size() > 1 && !kernel.one_body) continue;  // a group of several, which a single one is not
+        if (kernel.links.size() > 1 && !kernel.one_body) continue;  // its links are not one after the other in a lane
         for (const double size_m : kernel.sizes_m())
             for (int pinned = 0; pinned < (kernel.one_body ? 1 << corners : 1); ++pinned) {
                 SCOPED_TRACE(testing::Message() << kernel.name << " size " << size_m << " pinned " << pinned);
@@ -313,7 +308,7 @@ TYPED_TEST(KernelContract, NotANumberStaysInItsLane)
     }
 }
 
-// The input of lanes without a group: no mass, no rest value, no stiffness, at the origin. The errors of a group are
+// The input of lanes without a constraint: no mass, no rest value, no stiffness, at the origin. Their errors are
 // zero.
 TYPED_TEST(KernelContract, DummiesStayZero)
 {
@@ -347,8 +342,8 @@ TYPED_TEST(KernelContract, BindOnTheBoneAndOnTheBindPoint)
 }
 
 // By the plain form in the same precision: some twenty roundings of sums of positive terms, and those of C itself,
-// whose two parts may cancel. The largest of each group is that of its constraints.
-TYPED_TEST(KernelContract, GroupErrorsAreThoseOfThePlainForm)
+// whose two parts may cancel.
+TYPED_TEST(KernelContract, ErrorsAreThoseOfThePlainForm)
 {
     const double eps = std::numeric_limits<TypeParam>::epsilon();
     for (auto& kernel : kernels<TypeParam>())
@@ -377,9 +372,9 @@ TYPED_TEST(KernelContract, GroupErrorsAreThoseOfThePlainForm)
         }
 }
 
-// Whichever vertex is not finite, in the first constraint or in the last, the error of its group is not below a
+// Whichever vertex is not finite, in the first constraint or in the last, its error is not below a
 // tolerance. The errors of the other lanes do not change.
-TYPED_TEST(KernelContract, AGroupThatIsNotANumberIsNeverSatisfied)
+TYPED_TEST(KernelContract, AConstraintThatIsNotANumberIsNeverSatisfied)
 {
     for (auto& kernel : kernels<TypeParam>()) {
         if (!kernel.errors) continue;

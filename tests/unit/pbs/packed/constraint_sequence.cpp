@@ -1,9 +1,8 @@
 // Reference: colours found by hand, the definition of a colouring, and the same projections in random sequences.
 #include "pbs/constraints/volume.hpp"
 #include "pbs/geometry/topology.hpp"
-#include "pbs/packed/groups.hpp"
+#include "pbs/packed/constraint_sequence.hpp"
 #include "pbs/solver/projection.hpp"
-#include "tests/support/expect_groups.hpp"
 #include "tests/support/structured_bar.hpp"
 #include "tests/support/tet_rings.hpp"
 #include "tests/support/two_bone_limb.hpp"
@@ -19,20 +18,33 @@
 namespace {
 
 using namespace test_support;
-using pbs::ConstraintGroup;
+using pbs::PackedConstraint;
 using pbs::projection_sequence;
 
-void expect_a_sequence(const std::vector<ConstraintGroup>& groups, int vertices)
+TEST(PackedConstraints, AreTheConstraintsInTheOrderGiven)
 {
-    std::vector<int> places = projection_sequence(groups, vertices);
-    ASSERT_EQ(places.size(), groups.size());
+    const std::vector<PackedConstraint> edges = pbs::packed_edges({{3, 1}, {0, 2}}),
+                                        tets = pbs::packed_tets({{4, 2, 7, 1}});
+    ASSERT_EQ(edges.size(), 2u);
+    ASSERT_EQ(tets.size(), 1u);
+    EXPECT_EQ(std::pair(edges[0].vertex[0], edges[0].vertex[1]), std::pair(3, 1));
+    EXPECT_EQ(std::pair(edges[1].vertex[0], edges[1].vertex[1]), std::pair(0, 2));
+    EXPECT_EQ(std::pair(edges[0].constraint, edges[1].constraint), std::pair(0, 1));
+    EXPECT_EQ(tets[0].vertex, (std::array{4, 2, 7, 1}));
+    EXPECT_EQ(std::pair(edges[0].kind, tets[0].kind), std::pair(pbs::ConstraintKind::edge, pbs::ConstraintKind::tet));
+    EXPECT_TRUE(pbs::packed_edges({}).empty() && pbs::packed_tets({}).empty());
+}
+
+void expect_a_sequence(const std::vector<PackedConstraint>& constraints, int vertices)
+{
+    std::vector<int> places = projection_sequence(constraints, vertices);
+    ASSERT_EQ(places.size(), constraints.size());
     std::sort(places.begin(), places.end());
     for (std::size_t i = 0; i < places.size(); ++i) ASSERT_EQ(places[i], static_cast<int>(i));
 }
 
 // A chain of edges has two colours: 0, 2, 4 and then 1, 3. The same tets twice share four vertices, which is a face and
-// more. Fans 0 1 | 2 3 4 and 0 1 | 5 6 7 share an edge, which does not count in groups of several tets, so that the
-// first one stays first.
+// more.
 //                   face  edge  vertex
 // A  0 1 2 3           0     0     0
 // B  0 1 4 5           0     1     1     an edge with A
@@ -41,36 +53,32 @@ void expect_a_sequence(const std::vector<ConstraintGroup>& groups, int vertices)
 // Ascending by face, descending by edge, ascending by vertex: B, A, C, D.
 TEST(ProjectionSequence, OfSmallMeshes)
 {
-    const ConstraintGroup fan{pbs::GroupKind::tet_fan_2, {0, 1, 2, 3, 4}, {0, 1}},
-        other{pbs::GroupKind::tet_fan_2, {0, 1, 5, 6, 7}, {2, 3}};
     struct Case {
         const char* name;
-        std::vector<ConstraintGroup> groups;
+        std::vector<PackedConstraint> constraints;
         int vertices;
         std::vector<int> expected;
     };
     const Case cases[] = {
-        {"no groups", {}, 3, {}},
+        {"no constraints", {}, 3, {}},
         {"no vertices", {}, 0, {}},
-        {"a chain of edges", pbs::single_edges({{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}}), 6, {0, 3, 1, 4, 2}},
-        {"groups without neighbours", pbs::single_edges({{6, 7}, {0, 1}, {4, 5}, {2, 3}}), 8, {0, 1, 2, 3}},
-        {"tets A to D", pbs::single_tets({{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 6, 7, 8}, {1, 2, 3, 9}}), 10, {1, 0, 2, 3}},
-        {"the same tet twice", pbs::single_tets({{0, 1, 2, 3}, {3, 2, 1, 0}}), 4, {0, 1}},
-        {"two fans", {fan, other}, 8, {0, 1}},
+        {"a chain of edges", pbs::packed_edges({{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}}), 6, {0, 3, 1, 4, 2}},
+        {"constraints without neighbours", pbs::packed_edges({{6, 7}, {0, 1}, {4, 5}, {2, 3}}), 8, {0, 1, 2, 3}},
+        {"tets A to D", pbs::packed_tets({{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 6, 7, 8}, {1, 2, 3, 9}}), 10, {1, 0, 2, 3}},
+        {"the same tet twice", pbs::packed_tets({{0, 1, 2, 3}, {3, 2, 1, 0}}), 4, {0, 1}},
     };
-    for (const auto& [name, groups, vertices, expected] : cases)
-        EXPECT_EQ(projection_sequence(groups, vertices), expected) << name;
+    for (const auto& [name, constraints, vertices, expected] : cases)
+        EXPECT_EQ(projection_sequence(constraints, vertices), expected) << name;
 }
 
-TEST(ProjectionSequence, EveryGroupOfABarHasOnePlace)
+TEST(ProjectionSequence, EveryConstraintOfABarHasOnePlace)
 {
     const pbs::TetMesh bar = structured_bar({0, 0, 0}, {10, 4, 4}, {10, 4, 4});
     const int vertices = static_cast<int>(bar.rest.rows());
     const auto edges = rows_of(pbs::edges_of(bar.tets));
     const auto tets = rows_of(bar.tets);
-    for (const auto& groups : {pbs::single_edges(edges), pbs::single_tets(tets), pbs::grouped_edges(edges, bar.tets),
-                               pbs::grouped_tets(tets)})
-        expect_a_sequence(groups, vertices);
+    for (const auto& constraints : {pbs::packed_edges(edges), pbs::packed_tets(tets)})
+        expect_a_sequence(constraints, vertices);
 }
 
 // 24 iterations from LBS: sum |V - V0| over the rest volume.
@@ -124,72 +132,75 @@ TEST(ProjectionSequence, LeavesNoMoreVolumeChangeThanRandomSequences)
     }
 }
 
-// Reference: the conditions on which the kernels rely, checked for every batch: at most sixteen groups, no vertex
-// twice, none of the previous batch; and the order given, which groups that share a vertex keep.
+// Reference: the conditions on which the kernels rely, checked for every batch: at most sixteen constraints, no vertex
+// twice, none of the previous batch; and the order given, which constraints that share a vertex keep.
 
 using pbs::BatchScheduler;
 using Batches = std::vector<std::vector<int>>;
 
-Batches expect_sound(BatchScheduler& scheduler, const std::vector<ConstraintGroup>& groups)
+Batches expect_sound(BatchScheduler& scheduler, const std::vector<PackedConstraint>& constraints)
 {
-    const Batches batches = scheduler.schedule(groups);
-    std::vector<int> uses(groups.size(), 0);
+    const Batches batches = scheduler.schedule(constraints);
+    std::vector<int> uses(constraints.size(), 0);
     std::set<int> before;
-    std::map<int, int> last_at;  // group that each vertex belonged to last
+    std::map<int, int> last_at;  // constraint that each vertex belonged to last
     for (const std::vector<int>& batch : batches) {
         EXPECT_LE(batch.size(), std::size_t(pbs::batch_size));
         std::set<int> touched;
         for (const int g : batch) {
             ++uses[g];
-            for (int v = 0; v < pbs::vertices_of(groups[g].kind); ++v) {
-                EXPECT_TRUE(touched.insert(groups[g].vertex[v]).second) << "twice in a batch: " << groups[g].vertex[v];
-                EXPECT_FALSE(before.contains(groups[g].vertex[v])) << "in the batch before: " << groups[g].vertex[v];
-                const auto [last, is_first] = last_at.try_emplace(groups[g].vertex[v], g);
-                EXPECT_TRUE(is_first || last->second < g) << "group " << g << " follows " << last->second;
+            for (int v = 0; v < pbs::corners(constraints[g].kind); ++v) {
+                EXPECT_TRUE(touched.insert(constraints[g].vertex[v]).second)
+                    << "twice in a batch: " << constraints[g].vertex[v];
+                EXPECT_FALSE(before.contains(constraints[g].vertex[v]))
+                    << "in the batch before: " << constraints[g].vertex[v];
+                const auto [last, is_first] = last_at.try_emplace(constraints[g].vertex[v], g);
+                EXPECT_TRUE(is_first || last->second < g) << "constraint " << g << " follows " << last->second;
                 last->second = g;
             }
         }
         before = touched;
     }
-    EXPECT_EQ(std::count(uses.begin(), uses.end(), 1), std::ptrdiff_t(groups.size()));
+    EXPECT_EQ(std::count(uses.begin(), uses.end(), 1), std::ptrdiff_t(constraints.size()));
     return batches;
 }
 
-Batches expect_sound(int vertices, const std::vector<ConstraintGroup>& groups)
+Batches expect_sound(int vertices, const std::vector<PackedConstraint>& constraints)
 {
     BatchScheduler scheduler(vertices);
-    return expect_sound(scheduler, groups);
+    return expect_sound(scheduler, constraints);
 }
 
-TEST(BatchSchedule, OfFewGroupsHasThisManyBatches)
+TEST(BatchSchedule, OfFewConstraintsHasThisManyBatches)
 {
     EXPECT_TRUE(expect_sound(3, {}).empty());
-    EXPECT_EQ(expect_sound(2, pbs::single_edges({{0, 1}})).size(), 1u);
-    EXPECT_EQ(expect_sound(2, pbs::single_edges({{0, 1}, {1, 0}})).size(), 3u) << "two groups on the same vertices";
+    EXPECT_EQ(expect_sound(2, pbs::packed_edges({{0, 1}})).size(), 1u);
+    EXPECT_EQ(expect_sound(2, pbs::packed_edges({{0, 1}, {1, 0}})).size(), 3u)
+        << "two constraints on the same vertices";
 }
 
-// Groups without common vertices fill every lane. A chain in two colours has first every other edge, then those
+// Constraints without common vertices fill every lane. A chain in two colours has first every other edge, then those
 // between, and each half has 200 edges in 13 batches.
-TEST(BatchSchedule, DisjointGroupsFillAllLanes)
+TEST(BatchSchedule, DisjointConstraintsFillAllLanes)
 {
     std::vector<std::array<int, 2>> disjoint, by_colours;
     for (int e = 0; e < 100; ++e) disjoint.push_back({2 * e, 2 * e + 1});
-    const Batches batches = expect_sound(200, pbs::single_edges(disjoint));
+    const Batches batches = expect_sound(200, pbs::packed_edges(disjoint));
     ASSERT_EQ(batches.size(), 7u);
     for (std::size_t b = 0; b + 1 < batches.size(); ++b) EXPECT_EQ(batches[b].size(), 16u);
     for (const int colour : {0, 1})
         for (int i = colour; i < 400; i += 2) by_colours.push_back({i, i + 1});
-    EXPECT_LE(expect_sound(401, pbs::single_edges(by_colours)).size(), 2u * 13);
+    EXPECT_LE(expect_sound(401, pbs::packed_edges(by_colours)).size(), 2u * 13);
 }
 
-// One group per batch, with an empty batch between two: the only possible schedule. Each edge of a chain waits for the
-// one before, and pauses for one batch, which alone keeps the order.
-TEST(BatchSchedule, AllGroupsShareOneVertexOrAreAChain)
+// One constraint per batch, with an empty batch between two: the only possible schedule. Each edge of a chain waits for
+// the one before, and pauses for one batch, which alone keeps the order.
+TEST(BatchSchedule, AllConstraintsShareOneVertexOrAreAChain)
 {
     std::vector<std::array<int, 2>> star, chain;
     for (int i = 0; i < 40; ++i) star.push_back({0, i + 1}), chain.push_back({i, i + 1});
-    const Batches of_star = expect_sound(41, pbs::single_edges(star)),
-                  of_chain = expect_sound(41, pbs::single_edges(chain));
+    const Batches of_star = expect_sound(41, pbs::packed_edges(star)),
+                  of_chain = expect_sound(41, pbs::packed_edges(chain));
     ASSERT_EQ(of_star.size(), 79u);
     ASSERT_EQ(of_chain.size(), 79u);
     for (std::size_t b = 0; b < 79; ++b) {
@@ -204,31 +215,25 @@ TEST(BatchSchedule, TheLongestChainComesFirst)
     std::vector<std::array<int, 2>> edges;
     for (int i = 0; i < 30; ++i) edges.push_back({100 + 2 * i, 101 + 2 * i});
     for (int i = 0; i < 10; ++i) edges.push_back({i, i + 1});
-    const Batches batches = expect_sound(160, pbs::single_edges(edges));
+    const Batches batches = expect_sound(160, pbs::packed_edges(edges));
     ASSERT_EQ(batches.size(), 19u);
     EXPECT_EQ(batches[0].front(), 30);
     EXPECT_EQ(batches[0].size(), 16u);
 }
 
-TEST(BatchSchedule, EveryKindOfGroupOnABar)
+TEST(BatchSchedule, EdgesAndTetsOfABar)
 {
     const pbs::TetMesh bar = structured_bar({0, 0, 0}, {10, 4, 4}, {10, 4, 4});
-    const int vertices = static_cast<int>(bar.rest.rows());
-    const auto edges = rows_of(pbs::edges_of(bar.tets));
-    std::map<pbs::GroupKind, std::vector<ConstraintGroup>> by_kind;
-    for (const auto& groups : {pbs::single_edges(edges), pbs::single_tets(rows_of(bar.tets)),
-                               pbs::grouped_edges(edges, bar.tets), pbs::grouped_tets(rows_of(bar.tets))})
-        for (const ConstraintGroup& group : groups) by_kind[group.kind].push_back(group);
-    BatchScheduler scheduler(vertices);
-    for (const auto& [kind, groups] : by_kind) expect_sound(scheduler, groups);
-    EXPECT_LE(by_kind.size(), 7u);
-    EXPECT_GE(by_kind.size(), 5u);
+    BatchScheduler scheduler(static_cast<int>(bar.rest.rows()));
+    for (const auto& constraints :
+         {pbs::packed_edges(rows_of(pbs::edges_of(bar.tets))), pbs::packed_tets(rows_of(bar.tets))})
+        expect_sound(scheduler, constraints);
 }
 
 TEST(BatchSchedule, AClusterLeavesNoTraceForTheNext)
 {
     const pbs::TetMesh bar = structured_bar({0, 0, 0}, {6, 3, 3}, {6, 3, 3});
-    const auto tets = pbs::single_tets(rows_of(bar.tets));
+    const auto tets = pbs::packed_tets(rows_of(bar.tets));
     BatchScheduler scheduler(static_cast<int>(bar.rest.rows()));
     const Batches first = expect_sound(scheduler, tets);
     EXPECT_EQ(expect_sound(scheduler, tets), first);
