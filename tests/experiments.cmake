@@ -6,7 +6,7 @@ endif()
 # Tests that load deal.II at run time, in the modules pbskin_fem and pbskin_verification.
 set(with_the_module experiments/deformers/fem/fem_module experiments/deformers/flesh_limits
     experiments/studies/convergence/convergence_case
-    experiments/studies/ensemble/ensemble experiments/studies/fit/fit
+    experiments/studies/ensemble/ensemble
     experiments/studies/shared/posed_reference experiments/studies/stability/broken_fem_starts
     experiments/studies/temporal/temporal experiments/broken_bulge)
 set(left_out)

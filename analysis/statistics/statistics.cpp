@@ -165,18 +165,6 @@ int block_length(const std::vector<double>& series)
     return static_cast<int>(std::clamp(std::ceil(length), 1.0, std::max(1.0, std::floor(n / 2.0))));
 }
 
-Interval jackknife_interval(double estimate, const std::vector<double>& without, double level)
-{
-    const auto n = static_cast<double>(without.size());
-    Interval interval{estimate, not_known, not_known, level, static_cast<int>(without.size()), 0};
-    if (without.size() < 2) return interval;
-    const double half_width =
-        gsl_cdf_tdist_Pinv((1.0 + level) / 2.0, n - 1.0) * (n - 1.0) / std::sqrt(n) * standard_deviation(without);
-    interval.low = estimate - half_width;
-    interval.high = estimate + half_width;
-    return interval;
-}
-
 Interval bootstrap_mean(const std::vector<double>& series, const BootstrapOptions& options)
 {
     Interval interval{mean(series), not_known, not_known, options.level, static_cast<int>(series.size()), 0};

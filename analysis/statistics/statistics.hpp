@@ -40,12 +40,6 @@ Interval rank_correlation_without_one(const std::vector<double>& x, const std::v
 // samples is as precise as that of n / tau independent ones. At least 1; 1 for a series without spread.
 double integrated_autocorrelation_time(const std::vector<double>& series);
 
-// An estimate from n samples, with its estimates from all samples but one: estimate +- Student's t (n - 1) times the
-// jackknife's standard error sqrt((n - 1) / n sum (without - their mean)^2). The bounds are NaN for fewer than two
-// samples.
-//   const Interval modulus = jackknife_interval(of_all, of_all_but_one);
-Interval jackknife_interval(double estimate, const std::vector<double>& without, double level = 0.95);
-
 // The same options and the same series give the same interval to the bit.
 struct BootstrapOptions {
     double level = 0.95;            // confidence level, 0 to 1

@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 const std::vector<Study>& studies()
 {
     static const std::vector<Study> studies = {
-        volume_study(),         audit_study(),    momentum_study(),     convergence_study(), stability_study(),
-        artefacts_study(),      jiggle_study(),   stiffness_study(),    setup_study(),       ambiguity_study(),
-        frames_study(),         timing_study(),   verification_study(), fit_study(),         references_study(),
-        work_precision_study(), ensemble_study(), temporal_study()};
+        volume_study(),    audit_study(),   momentum_study(),     convergence_study(), stability_study(),
+        artefacts_study(), jiggle_study(),  stiffness_study(),    setup_study(),       ambiguity_study(),
+        frames_study(),    timing_study(),  verification_study(), references_study(),  work_precision_study(),
+        ensemble_study(),  temporal_study()};
     return studies;
 }
 

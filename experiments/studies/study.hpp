@@ -198,7 +198,6 @@ Study ambiguity_study();
 Study frames_study();
 Study timing_study();
 Study verification_study();
-Study fit_study();
 Study references_study();
 Study work_precision_study();
 Study ensemble_study();

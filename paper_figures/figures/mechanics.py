@@ -1,5 +1,5 @@
-"""How PBS moves flesh: the momentum that a projection changes, the response to a jolt, the stiffness against the
-settings of the solver, and the elastic material that k_stretch corresponds to."""
+"""How PBS moves flesh: the momentum that a projection changes, the response to a jolt, and the stiffness against the settings of the
+solver."""
 import sys
 
 import records
@@ -218,26 +218,3 @@ def stiffness(results):
     style.label(axes, (), [f"{title}\nstiffness [N/m]" for *_, title in bodies], factors.values())
     style.key_below(drawing)
     return drawing, behind
-
-
-# Young's modulus of the elastic bar that sags as PBS does, over k_stretch, for several iteration counts and meshes,
-# with the volume constraints on.
-
-def fit(results):
-    sag_columns = {"vertices", "k_stretch", "k_volume", "iterations", "young_pa", "settled"}
-    rows = [row for row in records.table(results / "fit" / "sag.csv", sag_columns)
-            if float(row["k_volume"]) == 1.0 and float(row["settled"]) == 1.0]
-    drawing, ((axes,),) = style.panels(1, 1, height_in=2.4)
-    counts = sorted({int(row["iterations"]) for row in rows})
-    for vertices, line in zip(sorted({int(row["vertices"]) for row in rows}), ("-", (0, (4, 1.5)), (0, (1, 1)))):
-        for iterations, (color, marker) in zip(counts, style.sequence):
-            chosen = [row for row in rows if int(row["vertices"]) == vertices and int(row["iterations"]) == iterations]
-            axes.plot([float(row["k_stretch"]) for row in chosen], [float(row["young_pa"]) / 1e3 for row in chosen],
-                      color=color, marker=marker, linestyle=line, label=f"{iterations} iterations, {vertices} vertices")
-    style.log_scale(axes.xaxis)
-    style.decades(axes.yaxis)
-    axes.set(xlabel="k_stretch [1]", ylabel="Young's modulus [kPa]", title="by sag: k_volume 1, time step 10 ms, "
-                                                                           "1000 kg/m\u00b3")
-    style.key_below(drawing)
-    return drawing, [{"shown": "young_kpa", "of": f"{row['vertices']} vertices, {row['iterations']} iterations",
-                      "at": row["k_stretch"], "value": float(row["young_pa"]) / 1e3} for row in rows]

@@ -107,7 +107,7 @@ const ForbiddenInclude forbidden[] = {
      "reference_fem/verification/"},
     {include_direction, "analysis/records/x.cpp", "analysis/verdicts/verdict.hpp", "analysis/records/"},
     {include_direction, "analysis/statistics/x.cpp", "analysis/metrics/error_norms.hpp", "analysis/statistics/"},
-    {layer_direction, "experiments/studies/stiffness/x.cpp", "experiments/studies/fit/a.hpp",
+    {layer_direction, "experiments/studies/stiffness/x.cpp", "experiments/studies/jiggle/a.hpp",
      "experiments/studies/stiffness/"},
     {layer_direction, "experiments/studies/ambiguity/x.cpp", "experiments/studies/jiggle/a.hpp",
      "experiments/studies/ambiguity/"},

@@ -602,17 +602,6 @@ class Ambiguity(Concluded):
         self.assertGreater(self.compared, 1600)
 
 
-class Fit(Concluded):
-    def test_scaled_moduli_follow_from_the_moduli(self):
-        for row in table("fit/sag.csv"):
-            young, dt, edge, density, iterations = (float(row[name]) for name in (
-                "young_pa", "time_step_s", "mean_edge_m", "density_kg_m3", "iterations"))
-            self.near(row, "young_dt2_over_density_edge2_iterations",
-                      young * dt ** 2 / density / edge ** 2 / iterations)
-            self.near(row, "identifiable", float(row["rise"]) >= 0.01)
-        self.assertGreater(self.compared, 250)
-
-
 class Ensemble(Concluded):
     def test_the_parts_are_vectors_whose_sum_is_the_error(self):
         models = indexed((row for row in table("ensemble/runs/attachments.csv") if row["difference_pct"] == "0"), "run",

@@ -9,7 +9,6 @@
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/ensemble/ensemble.hpp"
-#include "experiments/studies/fit/fit.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "experiments/studies/setup/body_setup.hpp"
 #include "experiments/studies/stability/stability_cells.hpp"
@@ -119,7 +118,6 @@ TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
     expect_same(experiments::zone_columns, "jiggle/runs/zone.csv");
     expect_same(experiments::stiffness_columns, "stiffness/runs/stiffness.csv");
     expect_same(experiments::exponent_columns(), "stiffness/exponents.csv", some);
-    expect_same(experiments::sag_columns, "fit/runs/sag.csv");
     expect_same(experiments::claim_change_columns(), "ambiguity/runs/ambiguity.csv", some);
     expect_same(experiments::volume_change_columns, "ambiguity/runs/figures.csv");
     expect_same(experiments::timing_columns, "timing/runs/timing.csv");

@@ -114,14 +114,6 @@ class OtherStudies(ResultsTest):
                          [("1", -10.0), ("2", -0.625)])
         self.refused_without("verification/verification.csv")
 
-    def test_the_fit_shows_moduli_with_volume_constraints_alone(self):
-        synthetic_records.write_fit(self.results)
-        young = {(row["of"], float(row["at"])): float(row["value"]) for row in self.drawn("fit")
-                 if row["shown"] == "young_kpa"}
-        self.assertEqual(len(young), 6)
-        self.assertAlmostEqual(young["300 vertices, 24 iterations", 0.2], 480.0)
-        self.refused_without("fit/sag.csv")
-
     def test_each_method_has_one_curve_with_a_point_for_each_setting_of_known_flesh(self):
         synthetic_records.write_work_precision(self.results)
         rows = self.drawn("error_against_time")

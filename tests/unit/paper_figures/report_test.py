@@ -170,7 +170,7 @@ class Report(ReportTest):
         _, text, said, _ = self.report()
         for study in ("work_precision", "timing", "verification"):
             self.assertIn(f"the study {study} was not run", text)
-        self.assertIn("missing: figure fit: the study fit was not run", said)
+        self.assertIn("missing: figure error_split: the study ensemble was not run", said)
 
     def test_a_study_that_has_not_ended_is_not_called_one_that_was_not_run(self):
         (self.results / "timing").mkdir()

@@ -86,15 +86,6 @@ def write_verification(results):
     write_table(folder / "verification.csv", [of_all | row for row in rows])
 
 
-def write_fit(results):
-    """E = 100 kPa k_stretch * iterations."""
-    write_origin(results / "fit" / "sag_300")
-    write_table(results / "fit" / "sag.csv", [
-        {"vertices": 300, "k_stretch": k_stretch, "k_volume": k_volume, "iterations": iterations,
-         "young_pa": 1e5 * k_stretch * iterations, "settled": 1}
-        for k_stretch in (0.05, 0.2, 0.9) for iterations in (24, 96) for k_volume in (0.0, 1.0)])
-
-
 comparison_ms = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 # What a method takes, and its share of LBS's error within these times, the last ones; in the table `guessed` half as
 # much again if it takes flesh.

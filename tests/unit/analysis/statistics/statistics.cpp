@@ -187,21 +187,6 @@ TEST(ShareInterval, OfNoneAndOfAllAndWiderOfFewerAndOfAHigherLevel)
     EXPECT_GT(share_interval(2, 8, 0.99).high, share_interval(2, 8, 0.95).high);
 }
 
-// The jackknife of a mean is Student's interval with the standard error. Reference: scipy 1.10,
-// stats.t.interval(0.95, 3, loc=x.mean(), scale=stats.sem(x)) of x = [1, 2, 4, 7], and at 0.9, to all printed digits.
-TEST(Jackknife, OfAMeanIsStudentsInterval)
-{
-    const std::vector<double> without = {13.0 / 3.0, 4.0, 10.0 / 3.0, 7.0 / 3.0};  // means of three
-    const Interval interval = jackknife_interval(3.5, without), narrow = jackknife_interval(3.5, without, 0.9);
-    EXPECT_EQ(interval.estimate, 3.5);
-    EXPECT_EQ(interval.n, 4);
-    EXPECT_NEAR(interval.low, -0.7099807422992503, 1e-12);
-    EXPECT_NEAR(interval.high, 7.70998074229925, 1e-12);
-    EXPECT_NEAR(narrow.low, 0.3867928034807977, 1e-12);
-    EXPECT_TRUE(std::isnan(jackknife_interval(3.5, {3.5}).low));
-    EXPECT_TRUE(std::isnan(jackknife_interval(3.5, {}).high));
-}
-
 // Reference: order statistics of a few frames by hand, linear between them.
 
 CsvTable metrics()
