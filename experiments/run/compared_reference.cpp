@@ -1,6 +1,7 @@
 #include "experiments/run/compared_reference.hpp"
 
 #include "experiments/deformers/fem/fem_options.hpp"
+#include "experiments/run/spread_reference.hpp"
 
 #include <fmt/format.h>
 
@@ -36,7 +37,7 @@ ComparedReference::ComparedReference(const Scene& scene, const pbs::Character& c
         cost.time("error_bar_set_up", [&] { error_bar_.emplace(runner.spec, character); });
 }
 
-const SpreadReference::Outcome* ComparedReference::spread() const
+const ReferenceOutcome* ComparedReference::spread() const
 {
     const auto* reference = dynamic_cast<const SpreadReference*>(runner_.deformer.get());
     return reference ? &reference->outcome() : nullptr;
@@ -44,7 +45,7 @@ const SpreadReference::Outcome* ComparedReference::spread() const
 
 void ComparedReference::note_contact()
 {
-    if (const SpreadReference::Outcome* outcome = spread(); outcome && outcome->with_contact)
+    if (const ReferenceOutcome* outcome = spread(); outcome && outcome->with_contact)
         options_of<FemOptions>(runner_.spec).contact = false;
 }
 
@@ -141,7 +142,7 @@ pbs::RemarkList ComparedReference::remarks() const
                  "in frame {}. In {} of {} frames, {:.0f} % of the body or more lag by more than {:.0f} degrees. {}",
                  scene_.file, bone_that_lags(), largest_lag_.turn_deg, largest_lag_.frame, frames_with_lag_,
                  frames_searched_for_lag_, 100.0 * much_lagging_share, much_lag_deg, remedy_of_lag(runner_.spec))});
-    if (const SpreadReference::Outcome* outcome = spread())
+    if (const ReferenceOutcome* outcome = spread())
         for (const pbs::Remark& remark : remarks_on(*outcome, scene_.file)) remarks.push_back(remark);
     if (frames_with_overlap_ > 0)
         remarks.push_back(

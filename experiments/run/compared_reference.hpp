@@ -11,7 +11,7 @@
 #include "experiments/run/parts_of_one_bone.hpp"
 #include "experiments/run/reference_error_bar.hpp"
 #include "experiments/run/runners.hpp"
-#include "experiments/run/spread_reference.hpp"
+#include "experiments/run/reference_outcome.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -46,7 +46,7 @@ public:
     bool was_interrupted() const;  // while it was solved
 
 private:
-    const SpreadReference::Outcome* spread() const;  // null: the reference has no budget
+    const ReferenceOutcome* spread() const;  // null: the reference has no budget
     void find_overlap(int frame, const pbs::Positions& positions, const FrameMeasurer& measurer);
     void find_lag(int frame, const pbs::Positions& positions, const pbs::Pose& pose);
     const std::string& bone_that_lags() const;

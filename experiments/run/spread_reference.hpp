@@ -3,8 +3,8 @@
 // are evenly spread up to the end. In the time that is left then it passes through the others, and tries those that
 // were not reached once more. It solves every fourth frame first, then every second one, then the rest. After four
 // frames that were not reached, and at most one that was, it gives up. A frame continues from the last one, or from the
-// solved one before or after it or from rest, whichever pose is most similar. What is solved is kept in a file, from
-// which the same run goes on.
+// solved one before or after it or from rest, whichever pose is most similar. What is solved is kept in a file
+// (solved_frames.hpp), from which the same run goes on. reference_outcome.hpp says what was reached.
 //
 // Contact can make a frame ten times as expensive, since where two parts touch, the initial guess and each step of
 // Newton's method end at once for the whole body. As soon as two frames are not reached, these are more than a quarter
@@ -17,10 +17,11 @@
 //       if (reference.advance(pose, dt_s); reference.has_state()) ... reference.positions() ...
 #pragma once
 
-#include "experiments/characters/remark.hpp"
 #include "experiments/deformers/deformer.hpp"
 #include "experiments/process/machine.hpp"
 #include "experiments/process/terminal.hpp"
+#include "experiments/run/reference_outcome.hpp"
+#include "experiments/run/solved_frames.hpp"
 
 #include <functional>
 #include <memory>
@@ -34,13 +35,13 @@ namespace experiments {
 struct ReferenceBudget {
     double seconds = 0.0;                   // of processor time, for all frames
     std::string file = {};                  // where solved frames are kept and found again; empty: nowhere
-    std::string key = {};                   // of all that the solutions depend on, except for the poses
+    std::string key = {};                   // all that the solutions depend on, except for the poses
     bool goes_on_without_the_rest = false;  // after an interruption, which then ends the solving alone
     std::function<double()> clock_s = process_cpu_s;
 };
 
-// How many frames to go on, so that the last of frames_left is reached when the time is spent: 1 or more. mean_s: of a
-// frame.
+// The number of frames to go on by, 1 or more, so that the last of frames_left is reached when the time is spent.
+// mean_s: the mean time per frame [s].
 int stride(int frames_left, double mean_s, double seconds_left);
 
 // The processor time that a frame may take [s]: an eighth of what is left, more if fewer frames are left, and three
@@ -61,42 +62,19 @@ public:
     const FemFacts* facts() const override { return &facts_; }
     nlohmann::json record() const override { return deformer_->record(); }
 
-    struct NotReached {
-        int frame = 0;
-        double seconds = 0.0;
-        std::string bone;  // whose flesh is most compressed in the state in which the solver ended
-    };
-    struct Outcome {
-        int frames = 0, solved = 0,
-            kept = 0;  // of the motion; with a solution; those among them that an earlier run had solved
-        std::vector<NotReached> not_reached = {};     // although they were tried
-        double seconds = 0.0;                         // that were spent
-        std::optional<NotReached> with_contact = {};  // the frame for which contact was given up
-        bool was_interrupted = false;
-
-        bool is_hopeless() const;  // so many frames were tried in vain that the others are not
-    };
-    const Outcome& outcome() const { return outcome_; }
+    const ReferenceOutcome& outcome() const { return outcome_; }
 
 private:
-    struct Solution {
-        pbs::StepSummary step = {};
-        pbs::Positions positions = {};  // [m], #V x 3
-        std::optional<double> lowest_det_f = {};
-        std::vector<CreaseTip> tips = {};
-    };
     struct Frame {
         pbs::Pose pose, relative;  // in the world, and to the root
-        std::optional<Solution> solution = {};
+        std::optional<SolvedFrame> solution = {};
     };
 
     void pass(std::set<int>& left, int least_stride);
     bool is_solved(int number) const { return frames_[static_cast<std::size_t>(number)].solution.has_value(); }
     bool is_held_up_by_contact() const;
-    void do_without_contact();
-    void find_kept();
-    Solution solution_in(const nlohmann::json& kept) const;  // nlohmann::json::exception where it is damaged
-    void keep();
+    void find_kept(const std::vector<pbs::Pose>& poses);
+    void do_without_contact(const FrameNotReached& frame_with_contact);
     bool has_time_left() const;
     void solve(int number, int frames_left);
     void continue_from_most_similar(int number);
@@ -107,22 +85,15 @@ private:
     ReferenceBudget budget_;
     const pbs::Character* character_ = nullptr;
     std::vector<Frame> frames_;
-    nlohmann::json kept_frames_;   // those of the file, of other poses too
+    SolvedFrames kept_;
     int tried_ = 0;                // frames that were tried here, with contact or without it
     double reached_s_ = 0.0;       // that those took which were reached
     double spent_before_s_ = 0.0;  // before the first of them
     int at_ = -1;                  // the frame whose pose the deformer has; -1: that of none
     int frame_ = -1;               // of the last call of advance
-    pbs::Stopwatch since_keeping_;
     std::optional<Progress> progress_;
     FemFacts facts_;
-    Outcome outcome_;
+    ReferenceOutcome outcome_;
 };
-
-// Remarks for the user, where contact is missing, and where frames were not reached or left out. scene_file: begins
-// each remark.
-pbs::RemarkList remarks_on(const SpreadReference::Outcome& outcome, const std::string& scene_file);
-void to_json(nlohmann::json& json, const SpreadReference::NotReached& frame);
-void to_json(nlohmann::json& json, const SpreadReference::Outcome& outcome);
 
 }  // namespace experiments

@@ -1,5 +1,5 @@
-"""How PBS moves flesh: the momentum that a projection changes, the response to a jolt, and the stiffness against the settings of the
-solver."""
+"""How PBS moves flesh: the momentum that a projection changes, the response to a jolt, and the stiffness against the
+settings of the solver."""
 import sys
 
 import records

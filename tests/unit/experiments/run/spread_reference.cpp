@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 
 namespace {
@@ -235,46 +234,6 @@ TEST_F(SpreadReferenceOfABar, DoesNotCountTheTimeWithContactForTheFramesWithoutI
     EXPECT_EQ(std::count(have.begin(), have.end(), true), 60);
 }
 
-TEST_F(SpreadReferenceOfABar, TriesContactAgainWithALargerBudget)
-{
-    is_blocked_by_contact = true;
-    SpreadReference first(stand_in(), {.seconds = 1000.0, .file = file, .key = "1"});
-    played(first, poses(5));
-    ASSERT_TRUE(first.outcome().with_contact);
-    is_blocked_by_contact = false;
-    SpreadReference again(stand_in(), {.seconds = 2000.0, .file = file, .key = "1"});
-    played(again, poses(5));
-    EXPECT_FALSE(again.outcome().with_contact);
-    EXPECT_EQ(again.outcome().kept, 0);
-}
-
-TEST_F(SpreadReferenceOfABar, KeepsFramesOfOtherPosesInItsFile)
-{
-    const ReferenceBudget budget{.seconds = endless_s, .file = file, .key = "1"};
-    std::vector<int> kept;
-    for (const int frames : {9, 4, 9}) {
-        SpreadReference reference(stand_in(), budget);
-        played(reference, poses(frames));
-        kept.push_back(reference.outcome().kept);
-    }
-    EXPECT_EQ(kept.front(), 0);
-    EXPECT_EQ(kept.back(), 9);
-}
-
-TEST_F(SpreadReferenceOfABar, SaysWhatIsMissing)
-{
-    EXPECT_TRUE(remarks_on({.frames = 5, .solved = 5}, "a.toml").empty());
-    const auto few = remarks_on({.frames = 60, .solved = 2, .seconds = 7.0}, "a.toml");
-    ASSERT_EQ(few.size(), 1u);
-    EXPECT_EQ(few.front().gravity, pbs::Gravity::comparison_wrong);
-    EXPECT_EQ(remarks_on({.frames = 60, .solved = 30}, "a.toml").front().gravity, pbs::Gravity::information);
-    const auto missing = remarks_on(
-        {.frames = 3, .solved = 2, .not_reached = {{1, 4.0, ""}}, .with_contact = {{0, 5.0, "head"}}}, "a.toml");
-    ASSERT_EQ(missing.size(), 2u);
-    EXPECT_NE(missing[0].text.find("the flesh of head holds it up"), std::string::npos);
-    EXPECT_EQ(missing[1].text.find("holds it up"), std::string::npos);
-}
-
 TEST_F(SpreadReferenceOfABar, GoesOnFromTheFramesOfItsFile)
 {
     const std::vector<pbs::Pose> frames = poses(5);
@@ -287,10 +246,6 @@ TEST_F(SpreadReferenceOfABar, GoesOnFromTheFramesOfItsFile)
     EXPECT_EQ(again.outcome().kept, 3);
     EXPECT_EQ(counts.advanced, 2);
     EXPECT_GT(counts.from.front(), 0.0) << "it continues from a kept frame";
-
-    SpreadReference with_other_settings(stand_in(), {.seconds = endless_s, .file = file, .key = "2"});
-    played(with_other_settings, frames);
-    EXPECT_EQ(with_other_settings.outcome().kept, 0);
 }
 
 TEST_F(SpreadReferenceOfABar, GoesOnWithoutContactFromTheFramesOfItsFile)
@@ -305,15 +260,6 @@ TEST_F(SpreadReferenceOfABar, GoesOnWithoutContactFromTheFramesOfItsFile)
     EXPECT_EQ(again.outcome().kept, 5);
     EXPECT_TRUE(again.outcome().with_contact);
     EXPECT_EQ(counts.advanced, 0);
-}
-
-TEST_F(SpreadReferenceOfABar, SolvesTheFramesOfADamagedFileAgain)
-{
-    const ReferenceBudget budget{.seconds = endless_s, .file = file, .key = "1"};
-    std::ofstream(file, std::ios::binary) << "not CBOR";
-    SpreadReference reference(stand_in(), budget);
-    EXPECT_EQ(played(reference, poses(3)), std::vector<bool>(3, true));
-    EXPECT_EQ(reference.outcome().kept, 0);
 }
 
 }  // namespace
