@@ -22,7 +22,7 @@ install(DIRECTORY paper_figures DESTINATION ${data_folder} COMPONENT program
     PATTERN viewer/*.json EXCLUDE PATTERN viewer/*.mjs EXCLUDE PATTERN viewer/.npmrc EXCLUDE)
 install(DIRECTORY experiments/scenes DESTINATION ${data_folder} COMPONENT program FILES_MATCHING PATTERN *.toml
     PATTERN *.obj)
-install(DIRECTORY experiments/references DESTINATION ${data_folder} COMPONENT program)
+install(DIRECTORY experiments/references DESTINATION ${data_folder} COMPONENT program PATTERN references/export EXCLUDE)
 install(DIRECTORY experiments/records/full/ DESTINATION ${data_folder}/records COMPONENT program
     PATTERN claims.json EXCLUDE PATTERN report.html EXCLUDE)
 install(DIRECTORY experiments/deformers/external/examples DESTINATION ${data_folder} COMPONENT program)

@@ -57,7 +57,7 @@ const std::vector<std::string> layers = {
     "experiments/studies/(?=[^/]+$)",
     "experiments/studies/[^/]+/",  // the folder of each study
     "experiments/reproduce/",
-    "experiments/(verdicts|sweeps)/",
+    "experiments/(references|verdicts|sweeps)/",
     "experiments/command_line/",
 };
 

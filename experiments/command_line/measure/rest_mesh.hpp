@@ -4,7 +4,7 @@
 //   const pbs::Positions positions = rest.read_frame("frame_0001.vtu");
 #pragma once
 
-#include "experiments/command_line/plain_vtu.hpp"
+#include "experiments/references/export/plain_vtu.hpp"
 #include "experiments/meshes/mesh_io.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "experiments/command_line/plain_vtu.hpp"
+#include "experiments/references/export/plain_vtu.hpp"
 
 #include "analysis/records/record_files.hpp"
 #include "pbs/geometry/input_error.hpp"
