@@ -61,8 +61,6 @@ pbs_program_test(robustness experiments/moving_characters)
 pbs_program_test(robustness experiments/meshing_ends)
 pbs_program_test(robustness experiments/changed_rigs)
 set_tests_properties(robustness/experiments/changed_rigs PROPERTIES TIMEOUT 14400)  # 1,000 models in ./check --long
-pbs_program_test(robustness experiments/changed_files)
-set_tests_properties(robustness/experiments/changed_files PROPERTIES TIMEOUT 14400)  # likewise 1,000 files
 pbs_program_test(robustness experiments/own_deformer)
 pbs_program_test(robustness experiments/bad_input)
 pbs_program_test(robustness experiments/changing_files)
