@@ -146,35 +146,100 @@ CsvTable::Cell::Cell(double value) : kind(Kind::real), text(number_text(value)),
 {
 }
 
-CsvTable::CsvTable(std::vector<std::string> columns) : columns_(std::move(columns))
+CsvTable::Row::Row(std::shared_ptr<const Head> head, Fields fields)
+    : head_(std::move(head)), fields_(std::make_shared<const Fields>(std::move(fields)))
+{
+}
+
+std::size_t CsvTable::Row::Head::index_of(const std::string& column) const
+{
+    const auto found = std::ranges::find(columns, column);
+    if (found == columns.end())
+        throw pbs::InputError(name, 1, "columns", fmt::format("{}", fmt::join(columns, ",")),
+                              "expected a column " + column);
+    return found - columns.begin();
+}
+
+void CsvTable::Row::refuse(const std::string& column, const std::string& rule) const
+{
+    throw pbs::InputError(fmt::format("{}:{}", head_->name, line()), static_cast<int>(head_->index_of(column)) + 1,
+                          column, text(column), rule);
+}
+
+const std::string& CsvTable::Row::text(const std::string& column) const
+{
+    return fields_->texts[head_->index_of(column)];
+}
+
+double CsvTable::Row::number(const std::string& column) const
+{
+    double value = 0.0;
+    if (!reads_whole(text(column), value)) refuse(column, "expected a number");
+    return value;
+}
+
+long long CsvTable::Row::integer(const std::string& column) const
+{
+    long long value = 0;
+    if (!reads_whole(text(column), value)) refuse(column, "expected a whole number");
+    return value;
+}
+
+std::optional<double> CsvTable::Row::number_or_nothing(const std::string& column) const
+{
+    return text(column).empty() ? std::nullopt : std::optional(number(column));
+}
+
+bool CsvTable::Row::has(const NamedCells& cells) const
+{
+    return std::ranges::all_of(cells, [&](const auto& named) {
+        const auto& [column, cell] = named;
+        const std::string& own = text(column);
+        double value = 0.0;
+        const bool is_number = cell.kind == Cell::Kind::whole || cell.kind == Cell::Kind::real;
+        return own == cell.text || (is_number && reads_whole(own, value) &&
+                                    value == (cell.kind == Cell::Kind::whole ? double(cell.whole) : cell.real));
+    });
+}
+
+CsvTable::CsvTable(std::vector<std::string> columns, const std::string& name)
+    : head_(std::make_shared<const Row::Head>(Row::Head{name, std::move(columns)}))
 {
 }
 
 void CsvTable::add_row(const std::vector<Cell>& cells)
 {
-    if (cells.size() != columns_.size())
+    if (cells.size() != columns().size())
         throw std::logic_error{
-            fmt::format("a row of {} cells in a table of {} columns", cells.size(), columns_.size())};
-    std::vector<std::string> fields;
-    for (const Cell& cell : cells) fields.push_back(cell.text);
-    rows_.push_back(std::move(fields));
-    lines_.push_back(rows() + 1);
+            fmt::format("{}: a row of {} cells in a table of {} columns", head_->name, cells.size(), columns().size())};
+    Row::Fields fields{rows() + 2, {}};
+    for (const Cell& cell : cells) fields.texts.push_back(cell.text);
+    rows_.push_back(Row(head_, std::move(fields)));
+}
+
+void CsvTable::add(const NamedCells& cells)
+{
+    Row::Fields fields{rows() + 2, std::vector<std::string>(columns().size())};
+    for (const auto& [column, cell] : cells) {
+        if (!has_column(column)) throw std::logic_error{fmt::format("{}: there is no column {}", head_->name, column)};
+        fields.texts[head_->index_of(column)] = cell.text;
+    }
+    rows_.push_back(Row(head_, std::move(fields)));
 }
 
 void CsvTable::append(const CsvTable& other)
 {
-    if (columns_.empty()) columns_ = other.columns_;
-    if (columns_ != other.columns_)
-        throw pbs::InputError(other.file_, 1, "columns", fmt::format("{}", fmt::join(other.columns_, ",")),
-                              fmt::format("expected those of the tables before: {}", fmt::join(columns_, ",")));
+    if (columns().empty()) head_ = other.head_;
+    if (columns() != other.columns())
+        throw pbs::InputError(other.head_->name, 1, "columns", fmt::format("{}", fmt::join(other.columns(), ",")),
+                              fmt::format("expected those of the tables before: {}", fmt::join(columns(), ",")));
     rows_.insert(rows_.end(), other.rows_.begin(), other.rows_.end());
-    while (lines_.size() < rows_.size()) lines_.push_back(static_cast<int>(lines_.size()) + 2);
 }
 
 std::string CsvTable::text() const
 {
-    std::string text = line_of(columns_);
-    for (const auto& row : rows_) text += line_of(row);
+    std::string text = line_of(columns());
+    for (const Row& row : rows_) text += line_of(row.fields_->texts);
     return text;
 }
 
@@ -185,53 +250,65 @@ void CsvTable::write(const std::string& path) const
 
 bool CsvTable::has_column(const std::string& name) const
 {
-    return std::find(columns_.begin(), columns_.end(), name) != columns_.end();
+    return std::ranges::count(columns(), name) > 0;
 }
 
-int CsvTable::index_of(const std::string& column) const
+CsvTable CsvTable::where(const std::function<bool(const Row&)>& is_wanted) const
 {
-    const auto found = std::find(columns_.begin(), columns_.end(), column);
-    if (found == columns_.end())
-        throw pbs::InputError(file_, 1, "columns", fmt::format("{}", fmt::join(columns_, ",")),
-                              "expected a column " + column);
-    return static_cast<int>(found - columns_.begin());
+    CsvTable wanted = *this;
+    std::erase_if(wanted.rows_, [&](const Row& row) { return !is_wanted(row); });
+    return wanted;
 }
 
-void CsvTable::refuse(int row, const std::string& column, const std::string& rule) const
+CsvTable CsvTable::where(const NamedCells& cells) const
 {
-    throw pbs::InputError(fmt::format("{}:{}", file_, lines_.at(row)), index_of(column) + 1, column,
-                          text_at(row, column), rule);
+    for (const auto& [column, cell] : cells) head_->index_of(column);  // also if there is no row
+    return where([&](const Row& row) { return row.has(cells); });
 }
 
-const std::string& CsvTable::text_at(int row, const std::string& column) const
+std::optional<CsvTable::Row> CsvTable::find(const NamedCells& cells) const
 {
-    return rows_.at(row)[index_of(column)];
+    const CsvTable found = where(cells);
+    if (found.rows() > 1)
+        found[1].refuse(cells.at(0).first, fmt::format("expected one such row: line {} has it too", found[0].line()));
+    return found.rows() == 0 ? std::nullopt : std::optional(found[0]);
 }
 
-double CsvTable::number(int row, const std::string& column) const
+std::vector<CsvTable> CsvTable::groups(const std::vector<std::string>& columns) const
 {
-    double value = 0.0;
-    if (!reads_whole(text_at(row, column), value)) refuse(row, column, "expected a number");
-    return value;
+    std::vector<std::size_t> indices;
+    for (const std::string& column : columns) indices.push_back(head_->index_of(column));
+    std::map<std::vector<std::string>, std::size_t> places;
+    std::vector<CsvTable> groups;
+    for (const Row& row : rows_) {
+        std::vector<std::string> key;
+        for (const std::size_t index : indices) key.push_back(row.fields_->texts[index]);
+        const auto [place, is_new] = places.emplace(std::move(key), groups.size());
+        if (is_new) groups.emplace_back(*this).rows_.clear();
+        groups[place->second].rows_.push_back(row);
+    }
+    return groups;
 }
 
-long long CsvTable::integer(int row, const std::string& column) const
+std::map<std::string, CsvTable::Row> CsvTable::by(const std::string& column) const
 {
-    long long value = 0;
-    if (!reads_whole(text_at(row, column), value)) refuse(row, column, "expected a whole number");
-    return value;
-}
-
-std::optional<double> CsvTable::number_or_nothing(int row, const std::string& column) const
-{
-    return text_at(row, column).empty() ? std::nullopt : std::optional<double>(number(row, column));
+    head_->index_of(column);  // also if there is no row
+    std::map<std::string, Row> rows;
+    for (const Row& row : rows_)
+        if (const auto [place, is_new] = rows.emplace(row.text(column), row); !is_new)
+            row.refuse(column, fmt::format("expected it once: line {} has it too", place->second.line()));
+    return rows;
 }
 
 std::vector<double> CsvTable::numbers(const std::string& column) const
 {
-    std::vector<double> values;
-    for (int row = 0; row < rows(); ++row) values.push_back(number(row, column));
-    return values;
+    head_->index_of(column);  // also if there is no row
+    return map([&](const Row& row) { return row.number(column); });
+}
+
+std::vector<double> CsvTable::known_numbers(const std::string& column) const
+{
+    return where([&](const Row& row) { return !row.text(column).empty(); }).numbers(column);
 }
 
 CsvTable read_csv(const std::string& path)
@@ -246,21 +323,20 @@ CsvTable parse_csv(const std::string& text, const std::string& file)
         throw pbs::InputError(file, 1, "", "",
                               "begins with a byte order mark, as a spreadsheet writes it: expected UTF-8 without one");
     RecordReader reader(text, file);
-    CsvTable table(reader.next());
-    table.file_ = file;
-    if (table.columns_.size() == 1 && table.columns_.front().find(';') != std::string::npos)
+    CsvTable table(reader.next(), file);
+    const std::vector<std::string>& columns = table.columns();
+    if (columns.size() == 1 && columns.front().find(';') != std::string::npos)
         refuse(file, 1, 1, "", "the separator is a semicolon: expected commas between fields and points in decimals");
     std::set<std::string> names;
-    for (std::size_t i = 0; i < table.columns_.size(); ++i)
-        if (!names.insert(table.columns_[i]).second)
-            refuse(file, 1, i + 1, table.columns_[i], "expected each column once");
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        if (!names.insert(columns[i]).second) refuse(file, 1, i + 1, columns[i], "expected each column once");
     while (!reader.at_end()) {
         const int line = reader.line();
-        table.rows_.push_back(reader.next());
-        table.lines_.push_back(line);
-        const std::size_t fields = table.rows_.back().size(), wanted = table.columns_.size();
-        if (fields != wanted)
-            refuse(file, line, fields, "", fmt::format("{} fields: expected {} as in the first line", fields, wanted));
+        std::vector<std::string> texts = reader.next();
+        if (texts.size() != columns.size())
+            refuse(file, line, texts.size(), "",
+                   fmt::format("{} fields: expected {} as in the first line", texts.size(), columns.size()));
+        table.rows_.push_back(CsvTable::Row(table.head_, {line, std::move(texts)}));
     }
     return table;
 }

@@ -1,7 +1,7 @@
 // Records as CSV (RFC 4180): named columns, numbers that round-trip (the shortest text that reads back to the same
 // double; nan, inf and -inf by name), and files that are written as a whole or not at all.
 //   CsvTable table{{"frame", "volume_change_pct"}};  table.add_row({0, -0.25});  table.write("metrics.csv");
-//   const CsvTable table = read_csv("metrics.csv");  double change = table.number(0, "volume_change_pct");
+//   const CsvTable pbs = read_csv("metrics.csv").where("deformer", "pbs");  pbs[0].number("volume_change_pct");
 #pragma once
 
 #include <boost/preprocessor/seq/for_each.hpp>
@@ -12,6 +12,8 @@
 #include <concepts>
 #include <functional>
 #include <iterator>
+#include <map>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -24,10 +26,27 @@ namespace analysis {
 
 std::string number_text(double value);  // shortest that round-trips; nan, inf, -inf
 
-// Cells are kept as text; rows count from 0. std::out_of_range for a row that does not exist.
+// The names of an enum's values in records; a specialisation defines `table`, an array of pairs of value and name.
+template <typename Enum>
+struct EnumNames;
+
+// The name of a value in records; empty if EnumNames does not list it.
+template <typename Enum>
+requires std::is_enum_v<Enum> std::string recorded_name(Enum value)
+{
+    for (const auto& [entry, name] : EnumNames<Enum>::table)
+        if (entry == value) return name;
+    return "";
+}
+
+// Cells are kept as text. Tables and rows are values: they are cheap to copy, and a row outlives its table. Rows count
+// from 0; std::out_of_range for a row that does not exist. A column that a table lacks is an InputError with the names
+// of the table and of the column.
+//   for (const CsvTable& method : points.where("stratum", "movement").groups({"method"}))
+//       medians.add({{"method", method[0].text("method")}, {"ms", median(method.known_numbers("ms"))}});
 class CsvTable {
 public:
-    // A text, a number, or no value (nullopt), which is an empty cell.
+    // A text, a number, the name of an option, or no value (nullopt), which is an empty cell.
     struct Cell {
         enum class Kind { nothing, text, whole, real };
 
@@ -39,16 +58,61 @@ public:
         Cell(Whole value) : kind(Kind::whole), text(std::to_string(value)), whole(value)
         {
         }
+        template <typename Enum>
+        requires std::is_enum_v<Enum> Cell(Enum value) : Cell(recorded_name(value)) {}
+        template <typename Value>
+        Cell(const std::optional<Value>& value) : Cell(value ? Cell(*value) : Cell(std::nullopt))
+        {
+        }
 
         Kind kind = Kind::nothing;
         std::string text;  // as the file has it
         long long whole = 0;
         double real = 0.0;
     };
+    using NamedCells = std::vector<std::pair<std::string, Cell>>;  // by column
 
-    explicit CsvTable(std::vector<std::string> columns);  // a table without rows
+    // InputError file:line:column for a missing column or a value of another kind. `column` in the message is the
+    // position of the field in its row, from 1.
+    class Row {
+    public:
+        const std::string& text(const std::string& column) const;
+        double number(const std::string& column) const;                            // nan and inf are allowed
+        long long integer(const std::string& column) const;                        // without a fraction
+        std::optional<double> number_or_nothing(const std::string& column) const;  // nothing for an empty cell
+        template <typename Value>
+        Value value(const std::string& column) const;  // of any type that CellOf reads
+        // Numbers are compared as numbers: a cell 1.0 is 1.
+        bool has(const NamedCells& cells) const;
+        int line() const { return fields_->line; }  // at which it begins in the file
+        // InputError file:line:column with the cell's value.
+        [[noreturn]] void refuse(const std::string& column, const std::string& rule) const;
+
+    private:
+        friend class CsvTable;
+        friend CsvTable parse_csv(const std::string& text, const std::string& file);
+        struct Head {
+            std::string name;  // of the table, or the file that was read, for messages
+            std::vector<std::string> columns;
+            std::size_t index_of(const std::string& column) const;
+        };
+        struct Fields {
+            int line;
+            std::vector<std::string> texts;
+        };
+
+        Row(std::shared_ptr<const Head> head, Fields fields);
+
+        std::shared_ptr<const Head> head_;
+        std::shared_ptr<const Fields> fields_;
+    };
+
+    // A table without rows; its name is that of its file, for messages.
+    explicit CsvTable(std::vector<std::string> columns, const std::string& name = "");
 
     void add_row(const std::vector<Cell>& cells);  // std::logic_error unless there is one cell per column
+    // The row has empty cells in all other columns. std::logic_error for a column that the table lacks.
+    void add(const NamedCells& cells);
     // Appends all rows of another table with the same columns; a table without columns adopts those of the other.
     // InputError for different columns.
     //   CsvTable all{{}};  for (const CsvTable& table : of_runs) all.append(table);
@@ -56,39 +120,56 @@ public:
     std::string text() const;                   // the whole file, column names first, each line with its end
     void write(const std::string& path) const;  // atomic; InputError if it cannot be written
 
-    const std::vector<std::string>& columns() const { return columns_; }  // names, in order
-    int rows() const { return static_cast<int>(rows_.size()); }           // without the header line
-    bool has_column(const std::string& name) const;                       // compares the exact name
+    const std::vector<std::string>& columns() const { return head_->columns; }  // names, in order
+    int rows() const { return static_cast<int>(rows_.size()); }                 // without the header line
+    bool has_column(const std::string& name) const;                             // compares the exact name
+    const Row& operator[](int row) const { return rows_.at(row); }
+    auto begin() const { return rows_.begin(); }
+    auto end() const { return rows_.end(); }
 
-    // Values by row and column name. InputError file:line:column for a missing column or a value of another kind.
-    // `column` in the message is the position of the field in its row, from 1.
-    const std::string& text_at(int row, const std::string& column) const;
-    double number(int row, const std::string& column) const;                            // nan and inf are allowed
-    long long integer(int row, const std::string& column) const;                        // without a fraction
-    std::optional<double> number_or_nothing(int row, const std::string& column) const;  // nothing for an empty cell
-    std::vector<double> numbers(const std::string& column) const;                       // #rows
-    // InputError file:line:column with the cell's value.
-    [[noreturn]] void refuse(int row, const std::string& column, const std::string& rule) const;
+    // The rows with these cells, or those that a predicate accepts, in their order.
+    CsvTable where(const NamedCells& cells) const;
+    CsvTable where(const std::string& column, const Cell& cell) const { return where(NamedCells{{column, cell}}); }
+    CsvTable where(const std::function<bool(const Row&)>& is_wanted) const;
+    // The only row with these cells; nothing if there is none. InputError if there are several.
+    std::optional<Row> find(const NamedCells& cells) const;
+    // The rows that have the same texts in these columns, in the order of their first rows.
+    std::vector<CsvTable> groups(const std::vector<std::string>& columns) const;
+    std::map<std::string, Row> by(const std::string& column) const;  // InputError for a text that occurs twice
+    template <typename Function>
+    auto map(const Function& function) const  // #rows
+    {
+        std::vector<std::decay_t<std::invoke_result_t<Function, const Row&>>> values;
+        for (const Row& row : rows_) values.push_back(std::invoke(function, row));
+        return values;
+    }
+    std::vector<double> numbers(const std::string& column) const;        // #rows
+    std::vector<double> known_numbers(const std::string& column) const;  // of the cells that are not empty
+
+    // The same by the number of a row.
+    const std::string& text_at(int row, const std::string& column) const { return (*this)[row].text(column); }
+    double number(int row, const std::string& column) const { return (*this)[row].number(column); }
+    long long integer(int row, const std::string& column) const { return (*this)[row].integer(column); }
+    std::optional<double> number_or_nothing(int row, const std::string& column) const
+    {
+        return (*this)[row].number_or_nothing(column);
+    }
+    [[noreturn]] void refuse(int row, const std::string& column, const std::string& rule) const
+    {
+        (*this)[row].refuse(column, rule);
+    }
 
 private:
     friend CsvTable parse_csv(const std::string& text, const std::string& file);
 
-    int index_of(const std::string& column) const;
-
-    std::string file_;  // the file that was read, for messages
-    std::vector<std::string> columns_;
-    std::vector<std::vector<std::string>> rows_;
-    std::vector<int> lines_;  // the line at which each row begins in the file
+    std::shared_ptr<const Row::Head> head_;
+    std::vector<Row> rows_;
 };
 
 // InputError file:line:column for a file that is empty or cut off, has a row of another length, a duplicate column or
 // broken quotes.
 CsvTable parse_csv(const std::string& text, const std::string& file);
 CsvTable read_csv(const std::string& path);  // InputError as for read_text and parse_csv
-
-// The names of an enum's values in records; a specialisation defines `table`, an array of pairs of value and name.
-template <typename Enum>
-struct EnumNames;
 
 // How a value is written in a cell and in JSON. `read` throws InputError file:line:column for a cell of another kind.
 template <typename Value>
@@ -97,42 +178,27 @@ struct CellOf;
 template <>
 struct CellOf<double> {
     static CsvTable::Cell cell(double value) { return value; }
-    static double read(const CsvTable& table, int row, const std::string& column) { return table.number(row, column); }
+    static double read(const CsvTable::Row& row, const std::string& column) { return row.number(column); }
 };
 
-template <>
-struct CellOf<long long> {
-    static CsvTable::Cell cell(long long value) { return value; }
-    static long long read(const CsvTable& table, int row, const std::string& column)
+template <std::signed_integral Whole>
+struct CellOf<Whole> {
+    static CsvTable::Cell cell(Whole value) { return value; }
+    static Whole read(const CsvTable::Row& row, const std::string& column)
     {
-        return table.integer(row, column);
-    }
-};
-
-template <>
-struct CellOf<long> {  // std::int64_t
-    static CsvTable::Cell cell(long value) { return static_cast<long long>(value); }
-    static long read(const CsvTable& table, int row, const std::string& column) { return table.integer(row, column); }
-};
-
-template <>
-struct CellOf<int> {
-    static CsvTable::Cell cell(int value) { return value; }
-    static int read(const CsvTable& table, int row, const std::string& column)
-    {
-        const long long value = table.integer(row, column);
-        if (value != static_cast<int>(value)) table.refuse(row, column, "expected a whole number of at most 31 bits");
-        return static_cast<int>(value);
+        const long long value = row.integer(column);
+        if (value != static_cast<Whole>(value)) row.refuse(column, "expected a whole number of at most 31 bits");
+        return static_cast<Whole>(value);
     }
 };
 
 template <>
 struct CellOf<bool> {
-    static CsvTable::Cell cell(bool value) { return static_cast<int>(value); }
-    static bool read(const CsvTable& table, int row, const std::string& column)
+    static CsvTable::Cell cell(bool value) { return value; }
+    static bool read(const CsvTable::Row& row, const std::string& column)
     {
-        const std::string& text = table.text_at(row, column);
-        if (text != "0" && text != "1") table.refuse(row, column, "expected 0 or 1");
+        const std::string& text = row.text(column);
+        if (text != "0" && text != "1") row.refuse(column, "expected 0 or 1");
         return text == "1";
     }
 };
@@ -140,33 +206,21 @@ struct CellOf<bool> {
 template <>
 struct CellOf<std::string> {
     static CsvTable::Cell cell(const std::string& value) { return value; }
-    static std::string read(const CsvTable& table, int row, const std::string& column)
-    {
-        return table.text_at(row, column);
-    }
+    static std::string read(const CsvTable::Row& row, const std::string& column) { return row.text(column); }
 };
-
-// The name of a value in records; empty if EnumNames does not list it.
-template <typename Enum>
-requires std::is_enum_v<Enum> std::string recorded_name(Enum value)
-{
-    for (const auto& [entry, name] : EnumNames<Enum>::table)
-        if (entry == value) return name;
-    return "";
-}
 
 template <typename Enum>
 requires std::is_enum_v<Enum>
 struct CellOf<Enum> {
-    static CsvTable::Cell cell(Enum value) { return recorded_name(value); }
-    static Enum read(const CsvTable& table, int row, const std::string& column)
+    static CsvTable::Cell cell(Enum value) { return value; }
+    static Enum read(const CsvTable::Row& row, const std::string& column)
     {
         std::string names;
         for (const auto& [entry, name] : EnumNames<Enum>::table) {
-            if (table.text_at(row, column) == name) return entry;
+            if (row.text(column) == name) return entry;
             names += (names.empty() ? "" : ", ") + std::string(name);
         }
-        table.refuse(row, column, "expected one of " + names);
+        row.refuse(column, "expected one of " + names);
     }
 };
 
@@ -178,9 +232,9 @@ struct CellOf<std::vector<std::string>> {  // names, each without a space, joine
         for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
         return text;
     }
-    static std::vector<std::string> read(const CsvTable& table, int row, const std::string& column)
+    static std::vector<std::string> read(const CsvTable::Row& row, const std::string& column)
     {
-        std::istringstream text(table.text_at(row, column));
+        std::istringstream text(row.text(column));
         return {std::istream_iterator<std::string>(text), {}};
     }
 };
@@ -191,12 +245,18 @@ struct CellOf<std::optional<Value>> {
     {
         return value ? CellOf<Value>::cell(*value) : std::nullopt;
     }
-    static std::optional<Value> read(const CsvTable& table, int row, const std::string& column)
+    static std::optional<Value> read(const CsvTable::Row& row, const std::string& column)
     {
-        if (table.text_at(row, column).empty()) return std::nullopt;
-        return CellOf<Value>::read(table, row, column);
+        if (row.text(column).empty()) return std::nullopt;
+        return CellOf<Value>::read(row, column);
     }
 };
+
+template <typename Value>
+Value CsvTable::Row::value(const std::string& column) const
+{
+    return CellOf<Value>::read(*this, column);
+}
 
 // std::logic_error unless the name ends with its unit or, if it ends with no unit, contains it: time_s is in s,
 // volume_change_pct in %, step_ms_median in ms. A name that ends with a unit cannot belong to a pure number.
@@ -210,8 +270,8 @@ struct Column {
     {
         using Value = std::remove_cvref_t<std::invoke_result_t<Access, Row&>>;
         cell = [access](const Row& row) { return CellOf<Value>::cell(std::invoke(access, row)); };
-        read = [access, column = name](Row& row, const CsvTable& table, int r) {
-            std::invoke(access, row) = CellOf<Value>::read(table, r, column);
+        read = [access, column = name](Row& row, const CsvTable::Row& cells) {
+            std::invoke(access, row) = CellOf<Value>::read(cells, column);
         };
     }
     // With what the program prints of it. unit: "" for a pure number.
@@ -231,7 +291,7 @@ struct Column {
         : name(other.name), unit(other.unit), meaning(other.meaning), group(other.group)
     {
         cell = [part, of = other.cell](const Row& row) { return of(row.*part); };
-        read = [part, of = other.read](Row& row, const CsvTable& table, int r) { of(row.*part, table, r); };
+        read = [part, of = other.read](Row& row, const CsvTable::Row& cells) { of(row.*part, cells); };
     }
     // A column of an optional member struct; if a row has no value for it, all its cells are empty.
     template <typename Part>
@@ -239,10 +299,10 @@ struct Column {
         : name(other.name), unit(other.unit), meaning(other.meaning), group(other.group)
     {
         cell = [part, of = other.cell](const Row& row) { return row.*part ? of(*(row.*part)) : std::nullopt; };
-        read = [part, column = name, of = other.read](Row& row, const CsvTable& table, int r) {
-            if (table.text_at(r, column).empty()) return;
+        read = [part, column = name, of = other.read](Row& row, const CsvTable::Row& cells) {
+            if (cells.text(column).empty()) return;
             if (!(row.*part)) (row.*part).emplace();
-            of(*(row.*part), table, r);
+            of(*(row.*part), cells);
         };
     }
 
@@ -252,7 +312,7 @@ struct Column {
     // "": in every file; the columns of a group occur in a file together or not at all
     std::string group = {};
     std::function<CsvTable::Cell(const Row&)> cell;
-    std::function<void(Row&, const CsvTable&, int)> read;
+    std::function<void(Row&, const CsvTable::Row&)> read;
 };
 
 // A CSV record that is declared once: a row is a plain struct, and one list of columns names, writes and reads its
@@ -344,7 +404,7 @@ std::vector<Row> rows_of(const Columns<Row>& columns, const CsvTable& table)
     std::vector<Row> rows(table.rows());
     for (const Column<Row>& column : columns)
         if (is_present(column.group))
-            for (int r = 0; r < table.rows(); ++r) column.read(rows[r], table, r);
+            for (int r = 0; r < table.rows(); ++r) column.read(rows[r], table[r]);
     return rows;
 }
 
@@ -382,11 +442,11 @@ Column<Row> column_with_empty(Value empty, const std::string& name, Value Row::*
     column.cell = [member, empty, filled = column.cell](const Row& row) {
         return row.*member == empty ? CsvTable::Cell(std::nullopt) : filled(row);
     };
-    column.read = [member, empty, name, filled = column.read](Row& row, const CsvTable& table, int r) {
-        if (table.text_at(r, name).empty())
+    column.read = [member, empty, name, filled = column.read](Row& row, const CsvTable::Row& cells) {
+        if (cells.text(name).empty())
             row.*member = empty;
         else
-            filled(row, table, r);
+            filled(row, cells);
     };
     return column;
 }

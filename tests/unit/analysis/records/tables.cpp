@@ -139,6 +139,121 @@ TEST(CsvTable, AppendsTheRowsOfOthersUnderOneHeadAndGoesThroughAFile)
     EXPECT_THROW(analysis::read_csv(folder / "missing.csv"), pbs::InputError);
 }
 
+// Operations on tables as values. Reference: the definition, on a table that is read at a glance.
+
+CsvTable times()
+{
+    return parse_csv("method,pose,ms\npbs,bend,3\nlbs,bend,0.50\npbs,twist,\nlbs,twist,1e0\n", "times.csv");
+}
+
+TEST(TableAsAValue, SelectsGroupsAndFindsRowsInTheirOrder)
+{
+    const CsvTable table = times();
+    EXPECT_EQ(table.where("method", "lbs").text(), "method,pose,ms\nlbs,bend,0.50\nlbs,twist,1e0\n");
+    EXPECT_EQ(table.where([](const CsvTable::Row& row) { return row.text("ms").empty(); }).rows(), 1);
+    const std::vector<CsvTable> methods = table.groups({"method"});
+    ASSERT_EQ(methods.size(), 2u);
+    EXPECT_EQ(methods[0].map([](const CsvTable::Row& row) { return row.text("pose"); }),
+              (std::vector<std::string>{"bend", "twist"}));
+    EXPECT_EQ(methods[1][0].text("method"), "lbs");
+    EXPECT_EQ(table.groups({"method", "pose"}).size(), 4u);
+    EXPECT_EQ(table.find({{"method", "pbs"}, {"pose", "bend"}}).value().line(), 2);
+    EXPECT_EQ(methods[1].by("pose").at("twist").number("ms"), 1.0);
+    EXPECT_EQ(table.rows(), 4) << "the table itself stays as it was";
+}
+
+TEST(TableAsAValue, ComparesNumbersAsNumbersAndTextsAsTexts)
+{
+    const CsvTable table = times();
+    EXPECT_EQ(table.where("ms", 0.5).rows(), 1) << "0.50 in the file";
+    EXPECT_EQ(table.where("ms", 1).rows(), 1) << "1e0 in the file";
+    EXPECT_EQ(table.where("ms", "0.5").rows(), 0);
+    EXPECT_EQ(table.where("ms", std::nullopt).rows(), 1) << "an empty cell";
+    EXPECT_EQ(table.where("ms", 0).rows(), 0) << "an empty cell is no number";
+    EXPECT_EQ(table.where("method", 3.0).rows(), 0) << "nor is a text";
+    EXPECT_EQ(parse_csv("x\nnan\n", "m.csv").where("x", std::nan("")).rows(), 1) << "by its name";
+}
+
+TEST(TableAsAValue, AnEmptyCellIsNoNumberAndNotLost)
+{
+    const CsvTable pbs = times().where("method", "pbs");
+    EXPECT_EQ(pbs.known_numbers("ms"), std::vector<double>{3.0});
+    EXPECT_EQ(pbs[1].number_or_nothing("ms"), std::nullopt);
+    EXPECT_EQ(pbs[1].value<std::optional<int>>("ms"), std::nullopt);
+    EXPECT_EQ(refusal_of([&] { pbs.numbers("ms"); }), "times.csv:4:3: expected a number");
+}
+
+TEST(TableAsAValue, WhatIsNotANumberIsRefusedWithTheLineInItsFile)
+{
+    const CsvTable lbs = times().where("method", "lbs");
+    EXPECT_EQ(refusal_of([&] { lbs[1].number("pose"); }), "times.csv:5:2: pose = twist: expected a number");
+    EXPECT_EQ(refusal_of([&] { lbs[0].value<int>("ms"); }), "times.csv:3:3: ms = 0.50: expected a whole number");
+}
+
+TEST(TableAsAValue, WithoutRowsHasEveryOperation)
+{
+    const CsvTable none({"method", "ms"}, "times.csv");
+    EXPECT_EQ(none.where("method", "pbs").text(), "method,ms\n");
+    EXPECT_TRUE(none.groups({"method"}).empty());
+    EXPECT_TRUE(none.by("method").empty());
+    EXPECT_FALSE(none.find({{"method", "pbs"}}));
+    EXPECT_TRUE(none.numbers("ms").empty());
+    EXPECT_TRUE(none.map([](const CsvTable::Row& row) { return row.line(); }).empty());
+    EXPECT_THROW(none[0], std::out_of_range);
+}
+
+// Even where no row would have shown the mistake.
+TEST(TableAsAValue, AMissingColumnIsRefusedByTheNamesOfTheTableAndTheColumn)
+{
+    const CsvTable none({"method", "ms"}, "times.csv");
+    const std::string message = "times.csv:1: columns = method,ms: expected a column methd";
+    EXPECT_EQ(refusal_of([&] { none.where("methd", "pbs"); }), message);
+    EXPECT_EQ(refusal_of([&] { none.find({{"methd", "pbs"}}); }), message);
+    EXPECT_EQ(refusal_of([&] { none.groups({"methd"}); }), message);
+    EXPECT_EQ(refusal_of([&] { none.by("methd"); }), message);
+    EXPECT_EQ(refusal_of([&] { none.numbers("methd"); }), message);
+    EXPECT_EQ(refusal_of([&] { none.known_numbers("methd"); }), message);
+    CsvTable written = none;
+    try {
+        written.add({{"method", "pbs"}, {"seconds", 1.0}});
+        FAIL() << "a mistake of the caller";
+    } catch (const std::logic_error& error) {
+        EXPECT_STREQ(error.what(), "times.csv: there is no column seconds");
+    }
+    EXPECT_EQ(written.rows(), 0);
+    written.add({{"ms", 0.5}});
+    EXPECT_EQ(written.text(), "method,ms\n,0.5\n");
+}
+
+TEST(TableAsAValue, ARowThatIsThereTwiceIsRefusedWithBothLines)
+{
+    const CsvTable table = times();
+    EXPECT_EQ(refusal_of([&] { table.by("method"); }),
+              "times.csv:4:1: method = pbs: expected it once: line 2 has it too");
+    EXPECT_EQ(refusal_of([&] {
+                  table.find({{"method", "lbs"}});
+              }),
+              "times.csv:5:1: method = lbs: expected one such row: line 3 has it too");
+}
+
+TEST(TableAsAValue, ARowOutlivesItsTable)
+{
+    const CsvTable::Row row = times().where("pose", "bend").find({{"method", "lbs"}}).value();
+    EXPECT_EQ(row.number("ms"), 0.5);
+    EXPECT_TRUE(row.has({{"method", "lbs"}, {"ms", 0.5}}));
+    EXPECT_FALSE(row.has({{"method", "lbs"}, {"ms", 0.25}}));
+}
+
+TEST(TableAsAValue, WritesOptionsAndValuesThatMayBeMissing)
+{
+    CsvTable table({"ending", "error_pct", "frame", "is_masked"});
+    table.add_row({Ending::not_finite, std::optional<double>(), std::optional(3), true});
+    EXPECT_EQ(table.text(), "ending,error_pct,frame,is_masked\nnot_finite,,3,1\n");
+    EXPECT_EQ(table[0].value<Ending>("ending"), Ending::not_finite);
+    EXPECT_TRUE(table[0].value<bool>("is_masked"));
+    EXPECT_TRUE(table[0].has({{"ending", Ending::not_finite}, {"error_pct", std::optional<double>()}}));
+}
+
 // Reference: RFC 4180 and the identity: rows that are written read back unchanged.
 
 using analysis::Columns;
