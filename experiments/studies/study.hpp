@@ -34,6 +34,14 @@ struct FinishedRuns {
         return rows;
     }
 
+    // The same as a table of these columns. InputError for a run with others.
+    analysis::CsvTable table(const std::vector<std::string>& columns, const std::string& file) const
+    {
+        analysis::CsvTable table(columns, file);
+        for (const std::string& path : files(file)) table.append(analysis::read_csv(path));
+        return table;
+    }
+
     // Writes a record of the study. InputError if it cannot be written.
     void write(const std::string& file, const std::string& text) const;
     void write(const std::string& file, const analysis::CsvTable& table) const;

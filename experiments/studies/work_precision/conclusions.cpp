@@ -6,35 +6,23 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
+#include <tuple>
 
 namespace experiments {
 
-using analysis::Columns;
+using analysis::CsvTable;
 using analysis::not_known;
+using Row = CsvTable::Row;
 
-const Columns<OwnErrorRow> own_error_columns =
-    MEMBER_COLUMNS(OwnErrorRow, pose, body, stratum, member, outcome, own_error_pct);
-const Columns<ComparedRow> compared_columns =
-    MEMBER_COLUMNS(ComparedRow, table, budget_ms) +
-    analysis::within(&ComparedRow::point, MEMBER_COLUMNS(PointRow, method, pose, body, stratum, ms, skin_mm) +
-                                              analysis::within(&PointRow::errors, member_error_columns()));
-const Columns<MethodRow> method_columns =
-    MEMBER_COLUMNS(MethodRow, table, budget_ms, method, takes, setting, ms, times_pbs, within, poses, fewest_poses,
-                   share, share_low, share_high, fold_share, fold_low, fold_high, skin_mm, inverted_poses, letters);
-const Columns<MethodPairRow> method_pair_columns =
-    MEMBER_COLUMNS(MethodPairRow, table, budget_ms, first, second, member, wins, ties, losses, p, p_holm, ratio,
-                   ratio_low, ratio_high);
-const Columns<DecisionRow> decision_columns =
-    MEMBER_COLUMNS(DecisionRow, table, budget_ms, without_body, first, second, decision);
-const Columns<MethodCurveRow> method_curve_columns =
-    MEMBER_COLUMNS(MethodCurveRow, table, method, budget_ms, setting, ms, share, share_low, share_high);
-const Columns<SolvedRow> solved_columns = MEMBER_COLUMNS(SolvedRow, table, target_pct, method, budget_ms, solved_pct);
-const Columns<OtherStartRow> other_start_columns =
-    MEMBER_COLUMNS(OtherStartRow, budget_ms, method, of, poses, share, share_of_setting);
-const Columns<MotionRow> motion_columns = MEMBER_COLUMNS(MotionRow, clip, budget_ms, method, setting, member, frames,
-                                                         ms, cold_share, played_share, cold_skin_mm, played_skin_mm);
+const std::vector<std::string> own_error_columns = {"pose", "body", "stratum", "member", "outcome", "own_error_pct"};
+
+std::vector<std::string> compared_columns()
+{
+    std::vector<std::string> columns = {"table", "budget_ms", "method", "pose", "body", "stratum", "ms", "skin_mm"};
+    std::ranges::move(member_error_columns().names(), std::back_inserter(columns));
+    return columns;
+}
 
 namespace {
 
@@ -53,62 +41,87 @@ Spread spread_over(std::vector<double> members)
     return {analysis::median(members), low, high};
 }
 
-// The rows of one setting of each method in all poses of the strata that are compared.
+const ChosenSetting* chosen_setting(const std::vector<ChosenSetting>& settings, const std::string& method,
+                                    double budget_ms)
+{
+    const auto found = std::ranges::find_if(settings, [&](const ChosenSetting& chosen) {
+        return chosen.method == method && chosen.budget_ms == budget_ms;
+    });
+    return found == settings.end() ? nullptr : &*found;
+}
+
+bool has_table(double budget_ms)
+{
+    return budget_ms == any_time_ms || std::ranges::count(comparison_times().tables_ms, budget_ms) > 0;
+}
+
+// The poses of the strata that are compared, and the rows of a method in them.
 class PosesOfTable {
 public:
-    PosesOfTable(const std::vector<PointRow>& points, const std::vector<OwnErrorRow>& own) : points_(points)
+    PosesOfTable(const CsvTable& points, const CsvTable& own)
+        : points_(points.where([](const Row& row) {
+              return row.has({{"stratum", Stratum::movement}}) || row.has({{"stratum", Stratum::fold}});
+          }))
     {
         for (const EnsembleMember& member : family()) compared_.members.push_back(member.name);
-        for (const PointRow& point : points)
-            if (point.stratum == Stratum::movement || point.stratum == Stratum::fold)
-                if (place_.try_emplace(point.pose, place_.size()).second) {
-                    compared_.bodies.push_back(point.body);
-                    is_movement_.push_back(point.stratum == Stratum::movement);
-                    is_fold_.push_back(point.stratum == Stratum::fold);
-                }
+        for (const CsvTable& of_pose : points_.groups({"pose"})) {
+            place_.emplace(of_pose[0].text("pose"), place_.size());
+            compared_.bodies.push_back(of_pose[0].text("body"));
+            is_movement_.push_back(of_pose[0].has({{"stratum", Stratum::movement}}));
+        }
         compared_.own_error.assign(compared_.members.size(), std::vector<double>(place_.size(), not_known));
-        for (const OwnErrorRow& row : own) {
-            const auto member = std::ranges::find(compared_.members, row.member) - compared_.members.begin();
-            if (place_.contains(row.pose) && member < std::ssize(compared_.members) && row.own_error_pct)
-                compared_.own_error[member][place_.at(row.pose)] = *row.own_error_pct;
+        for (const Row& row : own) {
+            const auto member = std::ranges::find(compared_.members, row.text("member")) - compared_.members.begin();
+            if (place_.contains(row.text("pose")) && member < std::ssize(compared_.members))
+                compared_.own_error[member][place_.at(row.text("pose"))] =
+                    row.number_or_nothing("own_error_pct").value_or(not_known);
         }
     }
 
-    // The rows of the method in a table, by pose; empty: there is none.
-    std::vector<const PointRow*> rows(const std::string& method, const std::string& setting,
-                                      ComparisonTable table) const
+    CsvTable rows(const std::string& method, const std::string& setting, ComparisonTable table) const
     {
         const GivenFlesh flesh = table == ComparisonTable::known ? GivenFlesh::own : GivenFlesh::standard;
-        std::vector<const PointRow*> rows(place_.size(), nullptr);
-        bool any = false;
-        for (const PointRow& point : points_) {
-            if (point.method != method || point.setting != setting || !place_.contains(point.pose)) continue;
-            if (point.flesh != GivenFlesh::none && point.flesh != flesh) continue;
-            rows[place_.at(point.pose)] = &point;
-            any = true;
-        }
-        return any ? rows : std::vector<const PointRow*>{};
+        return points_.where({{"method", method}, {"setting", setting}}).where([&](const Row& row) {
+            return row.has({{"flesh", GivenFlesh::none}}) || row.has({{"flesh", flesh}});
+        });
     }
 
-    analysis::MethodErrors errors(const std::string& method, const std::vector<const PointRow*>& rows) const
+    analysis::MethodErrors errors(const std::string& method, const CsvTable& rows) const
     {
         analysis::MethodErrors errors{method, {}};
-        errors.error.assign(compared_.members.size(), std::vector<double>(place_.size(), not_known));
-        for (std::size_t pose = 0; pose < rows.size(); ++pose)
-            for (std::size_t m = 0; rows[pose] && m < compared_.members.size(); ++m)
-                errors.error[m][pose] = rows[pose]->errors[m].value_or(not_known);
+        for (const std::string& member : compared_.members) {
+            std::vector<double>& errors_pct = errors.error.emplace_back(place_.size(), not_known);
+            for (const Row& row : rows)
+                errors_pct[place_.at(row.text("pose"))] = row.number_or_nothing(member + "_pct").value_or(not_known);
+        }
         return errors;
+    }
+
+    std::vector<std::string> external_methods() const
+    {
+        const CsvTable without_setting =
+            points_.where({{"setting", ""}, {"flesh", GivenFlesh::none}}).where([](const Row& row) {
+                return std::ranges::count(methods(), row.text("method"), &ComparedMethod::name) == 0;
+            });
+        std::vector<std::string> names;
+        for (const CsvTable& method : without_setting.groups({"method"})) names.push_back(method[0].text("method"));
+        return names;
     }
 
     const analysis::ComparedPoses& compared() const { return compared_; }
     const std::vector<bool>& is_movement() const { return is_movement_; }
-    const std::vector<bool>& is_fold() const { return is_fold_; }
+    std::vector<bool> is_fold() const
+    {
+        std::vector<bool> is_fold = is_movement_;
+        is_fold.flip();
+        return is_fold;
+    }
 
 private:
-    const std::vector<PointRow>& points_;
+    CsvTable points_;
     std::map<std::string, std::size_t> place_;  // of each pose
     analysis::ComparedPoses compared_;          // without methods
-    std::vector<bool> is_movement_, is_fold_;   // #poses
+    std::vector<bool> is_movement_;             // #poses
 };
 
 Spread share_of(const analysis::MethodErrors& method, const analysis::MethodErrors& lbs, const std::vector<bool>& kept)
@@ -133,131 +146,110 @@ std::vector<int> compared_poses(const analysis::MethodErrors& first, const analy
 }
 
 // Over the poses by movement.
-template <typename Value>
-std::optional<double> median_of(const std::vector<const PointRow*>& rows, const Value& value)
+std::optional<double> median_of(const CsvTable& rows, const std::string& column)
 {
-    std::vector<double> values;
-    for (const PointRow* row : rows)
-        if (row && row->stratum == Stratum::movement && value(*row)) values.push_back(*value(*row));
+    const std::vector<double> values = rows.where("stratum", Stratum::movement).known_numbers(column);
     return values.empty() ? std::nullopt : std::optional(analysis::median(values));
 }
 
 // One method in one table at one time.
 struct Entry {
-    const ComparedMethod* method;
+    const ComparedMethod* method;  // null: of the user's own
     std::string setting;
-    std::vector<const PointRow*> rows;
+    CsvTable rows;
     analysis::MethodErrors errors;
+    Spread share = {};  // over the poses by movement
 };
 
-std::vector<std::string> external_names(const std::vector<PointRow>& points)
-{
-    std::vector<std::string> names;
-    for (const PointRow& point : points)
-        if (point.setting.empty() && point.flesh == GivenFlesh::none &&
-            std::ranges::count(methods(), point.method, &ComparedMethod::name) == 0 &&
-            std::ranges::count(names, point.method) == 0)
-            names.push_back(point.method);
-    return names;
-}
-
-std::vector<Entry> entries_of(const PosesOfTable& poses, const std::vector<PointRow>& points,
-                              const std::vector<ChosenSetting>& settings, ComparisonTable table, double budget_ms)
+std::vector<Entry> entries_of(const PosesOfTable& poses, const std::vector<ChosenSetting>& settings,
+                              ComparisonTable table, double budget_ms)
 {
     std::vector<Entry> entries;
     const auto add = [&](const ComparedMethod* method, const std::string& name, const std::string& setting) {
-        std::vector<const PointRow*> rows = poses.rows(name, setting, table);
-        if (rows.empty()) return;
-        analysis::MethodErrors errors = poses.errors(name, rows);
-        entries.push_back({method, setting, std::move(rows), std::move(errors)});
+        const CsvTable rows = poses.rows(name, setting, table);
+        if (rows.rows() > 0) entries.push_back({method, setting, rows, poses.errors(name, rows)});
     };
     const double chosen_for_ms = std::min(budget_ms, comparison_times().budgets_ms.back());
-    for (const ComparedMethod& method : methods()) {
-        if (!method.is_in(name_of(table))) continue;
-        for (const ChosenSetting& chosen : settings)
-            if (chosen.method == method.name && chosen.budget_ms == chosen_for_ms)
-                add(&method, method.name, chosen.setting);
-    }
-    for (const std::string& name : external_names(points)) {
-        const auto ms = median_of(poses.rows(name, "", table), [](const PointRow& row) { return row.ms; });
-        if (ms && *ms <= budget_ms) add(nullptr, name, "");
-    }
+    for (const ComparedMethod& method : methods())
+        if (const ChosenSetting* chosen = chosen_setting(settings, method.name, chosen_for_ms);
+            chosen && method.is_in(name_of(table)))
+            add(&method, method.name, chosen->setting);
+    for (const std::string& name : poses.external_methods())
+        if (const auto ms = median_of(poses.rows(name, "", table), "ms"); ms && *ms <= budget_ms)
+            add(nullptr, name, "");
     return entries;
 }
 
 // The times of a table. If a deformer of the user's own needs more than the longest of them, any time follows.
-std::vector<double> times_of(const PosesOfTable& poses, const std::vector<PointRow>& points, ComparisonTable table)
+std::vector<double> times_of(const PosesOfTable& poses, ComparisonTable table)
 {
     std::vector<double> times_ms = comparison_times().budgets_ms;
     const double longest_ms = times_ms.back();
-    const bool is_slow = std::ranges::any_of(external_names(points), [&](const std::string& name) {
-        return median_of(poses.rows(name, "", table), [](const PointRow& row) { return row.ms; }).value_or(0.0) >
-               longest_ms;
+    const bool is_slow = std::ranges::any_of(poses.external_methods(), [&](const std::string& name) {
+        return median_of(poses.rows(name, "", table), "ms").value_or(0.0) > longest_ms;
     });
     if (is_slow) times_ms.push_back(any_time_ms);
     return times_ms;
 }
 
-MethodRow method_row(const Entry& entry, const Entry& lbs, const PosesOfTable& poses, ComparisonTable table,
-                     double budget_ms)
+void add_method(const Entry& entry, const Entry& lbs, const PosesOfTable& poses, ComparisonTable table,
+                double budget_ms, const std::string& letters, CsvTable& to)
 {
-    MethodRow row{.table = table, .budget_ms = budget_ms, .method = entry.errors.method};
-    if (entry.method) row.takes = entry.method->takes;
-    row.setting = entry.setting;
-    row.ms = median_of(entry.rows, [](const PointRow& point) { return point.ms; });
-    row.times_pbs = median_of(entry.rows, [](const PointRow& point) { return point.times_pbs; });
-    const double ms = row.ms.value_or(0.0);
-    row.within = 2.0 * ms <= budget_ms ? "doubled" : ms <= budget_ms ? "once" : "no";
+    const std::vector<std::string> takes = entry.method ? entry.method->takes : std::vector<std::string>{};
+    const std::optional<double> ms = median_of(entry.rows, "ms");
     const std::vector<int> compared = compared_poses(entry.errors, lbs.errors, poses.is_movement());
-    row.poses = std::ranges::max(compared);
-    row.fewest_poses = std::ranges::min(compared);
-    const Spread share = share_of(entry.errors, lbs.errors, poses.is_movement());
-    row.share = share.middle;
-    row.share_low = share.low;
-    row.share_high = share.high;
-    if (const Spread fold = share_of(entry.errors, lbs.errors, poses.is_fold()); !std::isnan(fold.middle)) {
-        row.fold_share = fold.middle;
-        row.fold_low = fold.low;
-        row.fold_high = fold.high;
-    }
-    row.skin_mm = median_of(entry.rows, [](const PointRow& point) { return point.skin_mm; });
-    for (const PointRow* point : entry.rows)
-        row.inverted_poses += point && point->stratum == Stratum::movement && point->inverted > 0;
-    return row;
+    const Spread fold = share_of(entry.errors, lbs.errors, poses.is_fold());
+    const auto or_nothing = [](double value) { return std::isnan(value) ? std::nullopt : std::optional(value); };
+    const CsvTable inverted = entry.rows.where([](const Row& row) {
+        return row.has({{"stratum", Stratum::movement}}) && row.integer("inverted") > 0;
+    });
+    to.add({{"table", table},
+            {"budget_ms", budget_ms},
+            {"method", entry.errors.method},
+            {"takes", analysis::CellOf<std::vector<std::string>>::cell(takes)},
+            {"setting", entry.setting},
+            {"ms", ms},
+            {"times_pbs", median_of(entry.rows, "times_pbs")},
+            {"within", 2.0 * ms.value_or(0.0) <= budget_ms ? "doubled"
+                       : ms.value_or(0.0) <= budget_ms     ? "once"
+                                                           : "no"},
+            {"poses", std::ranges::max(compared)},
+            {"fewest_poses", std::ranges::min(compared)},
+            {"share", entry.share.middle},
+            {"share_low", entry.share.low},
+            {"share_high", entry.share.high},
+            {"fold_share", or_nothing(fold.middle)},
+            {"fold_low", or_nothing(fold.low)},
+            {"fold_high", or_nothing(fold.high)},
+            {"skin_mm", median_of(entry.rows, "skin_mm")},
+            {"inverted_poses", inverted.rows()},
+            {"letters", letters}});
 }
 
 // The pairs of a table at one time, and what each body changes.
-void add_pairs(const std::vector<Entry>& entries, const PosesOfTable& poses, std::vector<MethodRow>& rows,
-               Comparison& comparison)
+std::vector<analysis::MethodPair> add_pairs(const std::vector<Entry>& entries, const PosesOfTable& poses,
+                                            ComparisonTable table, double budget_ms, Comparison& comparison)
 {
     analysis::ComparedPoses with_methods = poses.compared();
     for (const Entry& entry : entries) with_methods.methods.push_back(entry.errors);
     const analysis::ComparedPoses movement = analysis::selected_poses(with_methods, poses.is_movement());
     const std::vector<analysis::MethodPair> pairs = analysis::compare_methods(movement);
-    const ComparisonTable table = rows.front().table;
-    const double budget_ms = rows.front().budget_ms;
     const auto add_decisions = [&](const std::vector<analysis::MethodPair>& method_pairs,
                                    const std::string& without_body) {
         for (const analysis::MethodPair& pair : method_pairs)
-            comparison.decisions.push_back({table, budget_ms, without_body, pair.first, pair.second, pair.decision});
+            comparison.decisions.add_row({table, budget_ms, without_body, pair.first, pair.second, pair.decision});
     };
     for (const analysis::MethodPair& pair : pairs)
         for (std::size_t m = 0; m < pair.members.size(); ++m) {
             const analysis::MemberComparison& on = pair.members[m];
             if (on.poses() == 0) continue;
-            comparison.pairs.push_back({table, budget_ms, pair.first, pair.second, movement.members[m], on.wins,
-                                        on.ties, on.losses, on.p, on.p_holm, on.ratio.estimate, on.ratio.low,
-                                        on.ratio.high});
+            comparison.pairs.add_row({table, budget_ms, pair.first, pair.second, movement.members[m], on.wins, on.ties,
+                                      on.losses, on.p, on.p_holm, on.ratio.estimate, on.ratio.low, on.ratio.high});
         }
     add_decisions(pairs, "");
     for (const std::string& body : std::set<std::string>(movement.bodies.begin(), movement.bodies.end()))
         add_decisions(analysis::compare_methods(analysis::without_body(movement, body)), body);
-
-    std::ranges::stable_sort(rows, {}, &MethodRow::share);
-    std::vector<std::string> ranked;
-    for (const MethodRow& row : rows) ranked.push_back(row.method);
-    const std::vector<std::string> letters = analysis::letters(ranked, pairs);
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].letters = letters[i];
+    return pairs;
 }
 
 // The share of movement poses whose error is at most this share of LBS's, in the mean over the members.
@@ -277,166 +269,168 @@ double solved_pct(const Entry& entry, const Entry& lbs, const PosesOfTable& pose
     return analysis::mean(of_member);
 }
 
-std::vector<OtherStartRow> start_rows(const std::vector<PointRow>& points, const std::vector<ChosenSetting>& settings)
+void add_table(std::vector<Entry> entries, const Entry& lbs, const PosesOfTable& poses, ComparisonTable table,
+               double budget_ms, Comparison& comparison)
 {
-    std::vector<OtherStartRow> rows;
-    const auto errors_of = [&](const std::string& method, const std::string& setting, GivenFlesh flesh) {
-        std::map<std::string, double> errors;  // by pose, against the first member
-        for (const PointRow& point : points)
-            if (point.method == method && point.setting == setting && point.errors[0] &&
-                (point.flesh == flesh || point.flesh == GivenFlesh::none))
-                errors[point.pose] = *point.errors[0];
-        return errors;
-    };
-    const auto share = [](const std::map<std::string, double>& of, const std::map<std::string, double>& to,
-                          const std::map<std::string, double>& in) {
-        std::vector<double> own, other;
-        for (const auto& [pose, error] : in)
-            if (of.contains(pose) && to.contains(pose)) own.push_back(of.at(pose)), other.push_back(to.at(pose));
-        return analysis::share(own, other);
+    for (const Entry& entry : entries)
+        for (const Row& point : entry.rows) {
+            std::vector<CsvTable::Cell> cells = {table, budget_ms};
+            for (std::size_t c = cells.size(); c < comparison.errors.columns().size(); ++c)
+                cells.emplace_back(point.text(comparison.errors.columns()[c]));
+            comparison.errors.add_row(cells);
+        }
+    const std::vector<analysis::MethodPair> pairs = add_pairs(entries, poses, table, budget_ms, comparison);
+    std::ranges::stable_sort(entries, {}, [](const Entry& entry) { return entry.share.middle; });
+    std::vector<std::string> ranked;
+    for (const Entry& entry : entries) ranked.push_back(entry.errors.method);
+    const std::vector<std::string> letters = analysis::letters(ranked, pairs);
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        add_method(entries[i], lbs, poses, table, budget_ms, letters[i], comparison.methods);
+}
+
+// The cells that are not empty.
+using ValueByPose = std::map<std::string, double>;
+ValueByPose by_pose(const CsvTable& rows, const std::string& column)
+{
+    ValueByPose values;
+    for (const auto& [pose, row] : rows.by("pose"))
+        if (const auto value = row.number_or_nothing(column)) values.emplace(pose, *value);
+    return values;
+}
+
+// Over the poses that both have.
+double share_over_poses(const ValueByPose& errors, const ValueByPose& of_lbs)
+{
+    std::vector<double> own, lbs;
+    for (const auto& [pose, error] : errors)
+        if (of_lbs.contains(pose)) own.push_back(error), lbs.push_back(of_lbs.at(pose));
+    return analysis::share(own, lbs);
+}
+
+void add_starts(const CsvTable& points, const std::vector<ChosenSetting>& settings, CsvTable& to)
+{
+    const auto errors_of = [&](const std::string& method, const ChosenSetting* chosen, GivenFlesh flesh) {
+        return by_pose(points.where({{"method", method}, {"setting", chosen->setting}, {"flesh", flesh}}),
+                       family().front().name + "_pct");
     };
     for (const double budget_ms : comparison_times().tables_ms) {
-        const auto setting_of = [&](const std::string& method) -> std::optional<std::string> {
-            const auto chosen = std::ranges::find_if(settings, [&](const ChosenSetting& chosen_setting) {
-                return chosen_setting.method == method && chosen_setting.budget_ms == budget_ms;
-            });
-            return chosen == settings.end() ? std::nullopt : std::optional(chosen->setting);
-        };
-        const std::optional<std::string> of_lbs = setting_of(baseline);
+        const ChosenSetting* of_lbs = chosen_setting(settings, baseline, budget_ms);
         if (!of_lbs) continue;
-        const auto lbs = errors_of(baseline, *of_lbs, GivenFlesh::none);
+        const ValueByPose lbs = errors_of(baseline, of_lbs, GivenFlesh::none);
         for (const OtherStart& start : other_starts()) {
-            const std::optional<std::string> setting = setting_of(start.of);
+            const ChosenSetting* setting = chosen_setting(settings, start.of, budget_ms);
             if (!setting) continue;
-            const auto changed = errors_of(start.name, *setting, GivenFlesh::start);
+            const ValueByPose changed = errors_of(start.name, setting, GivenFlesh::start);
             if (changed.empty()) continue;
-            rows.push_back({budget_ms, start.name, start.of, static_cast<int>(changed.size()),
-                            share(changed, lbs, changed),
-                            share(errors_of(start.of, *setting, GivenFlesh::own), lbs, changed)});
+            ValueByPose unchanged = errors_of(start.of, setting, GivenFlesh::own);
+            unchanged.merge(errors_of(start.of, setting, GivenFlesh::none));
+            std::erase_if(unchanged, [&](const auto& pose) { return !changed.contains(pose.first); });
+            to.add_row({budget_ms, start.name, start.of, changed.size(), share_over_poses(changed, lbs),
+                        share_over_poses(unchanged, lbs)});
         }
     }
-    return rows;
 }
 
 }  // namespace
 
-std::vector<ChosenSetting> chosen_settings(const std::vector<PointRow>& training)
-{
-    struct Tried {
-        std::string method, setting;
-        std::vector<double> ms, log_error;
-        int poses = 0;
-    };
-    std::vector<Tried> tried;
-    for (const PointRow& point : training) {
-        auto found = std::ranges::find_if(
-            tried, [&](const Tried& entry) { return entry.method == point.method && entry.setting == point.setting; });
-        if (found == tried.end())
-            found =
-                tried.insert(found, Tried{.method = point.method, .setting = point.setting, .ms = {}, .log_error = {}});
-        found->poses += point.outcome == "finished";
-        if (point.ms) found->ms.push_back(*point.ms);
-        for (const std::optional<double>& error : point.errors)
-            if (error) found->log_error.push_back(std::log(*error));
-    }
-    int poses = 0;  // a ladder that ended early on entry body, or a shape that is not finite, has fewer
-    for (const Tried& entry : tried) poses = std::max(poses, entry.poses);
-    std::vector<ChosenSetting> chosen;
-    for (const ComparedMethod& method : methods())
-        for (const double budget_ms : comparison_times().budgets_ms) {
-            const Tried* best = nullptr;
-            for (const Tried& entry : tried) {
-                if (entry.method != method.name || entry.poses < poses || entry.log_error.empty() ||
-                    analysis::mean(entry.ms) > budget_ms)
-                    continue;
-                if (!best || analysis::mean(entry.log_error) < analysis::mean(best->log_error)) best = &entry;
-            }
-            if (best)
-                chosen.push_back({budget_ms, method.name, best->setting, analysis::mean(best->ms),
-                                  std::exp(analysis::mean(best->log_error))});
-        }
-    return chosen;
-}
-
-Comparison concluded(const std::vector<PointRow>& points, const std::vector<OwnErrorRow>& own,
-                     const std::vector<ChosenSetting>& settings)
+Comparison concluded(const CsvTable& points, const CsvTable& own, const std::vector<ChosenSetting>& settings)
 {
     Comparison comparison;
     const PosesOfTable poses(points, own);
     for (const ComparisonTable table : {ComparisonTable::known, ComparisonTable::guessed})
-        for (const double budget_ms : times_of(poses, points, table)) {
-            const bool is_any_time = budget_ms == any_time_ms;
-            const std::vector<Entry> entries = entries_of(poses, points, settings, table, budget_ms);
-            const auto lbs =
+        for (const double budget_ms : times_of(poses, table)) {
+            std::vector<Entry> entries = entries_of(poses, settings, table, budget_ms);
+            const auto found =
                 std::ranges::find(entries, baseline, [](const Entry& entry) { return entry.errors.method; });
-            if (lbs == entries.end()) continue;
-            std::vector<MethodRow> rows;
-            for (const Entry& entry : entries) {
-                rows.push_back(method_row(entry, *lbs, poses, table, budget_ms));
-                const MethodRow& row = rows.back();
-                comparison.curves.push_back({table, row.method, budget_ms, row.setting, row.ms.value_or(not_known),
-                                             row.share, row.share_low, row.share_high});
-                if (is_any_time) continue;  // a profile is a function of the time
+            if (found == entries.end()) continue;
+            const Entry lbs = *found;
+            for (Entry& entry : entries) {
+                const std::string& method = entry.errors.method;
+                entry.share = share_of(entry.errors, lbs.errors, poses.is_movement());
+                comparison.curves.add_row({table, method, budget_ms, entry.setting,
+                                           median_of(entry.rows, "ms").value_or(not_known), entry.share.middle,
+                                           entry.share.low, entry.share.high});
+                if (budget_ms == any_time_ms) continue;  // a profile is a function of the time
                 for (const double target_pct : targets_pct)
-                    comparison.profiles.push_back(
-                        {table, target_pct, row.method, budget_ms, solved_pct(entry, *lbs, poses, target_pct)});
+                    comparison.profiles.add_row(
+                        {table, target_pct, method, budget_ms, solved_pct(entry, lbs, poses, target_pct)});
             }
-            if (!is_any_time && std::ranges::count(comparison_times().tables_ms, budget_ms) == 0) continue;
-            for (const Entry& entry : entries)
-                for (const PointRow* point : entry.rows)
-                    if (point) comparison.errors.push_back({table, budget_ms, *point});
-            add_pairs(entries, poses, rows, comparison);
-            comparison.methods.insert(comparison.methods.end(), rows.begin(), rows.end());
+            if (has_table(budget_ms)) add_table(std::move(entries), lbs, poses, table, budget_ms, comparison);
         }
-    comparison.starts = start_rows(points, settings);
+    add_starts(points, settings, comparison.starts);
     return comparison;
 }
 
-std::vector<MotionRow> concluded(const std::vector<PlayedRow>& played, const std::vector<ChosenSetting>& settings)
+CsvTable concluded_motion(const CsvTable& played, const std::vector<ChosenSetting>& settings)
 {
-    std::vector<MotionRow> rows;
-    // Frames of one clip, method, setting and member, by pose.
-    struct Frames {
-        std::map<std::string, double> error[2], skin_mm[2];  // by FrameGuess
-        std::vector<double> ms;
+    CsvTable motion({"clip", "budget_ms", "method", "setting", "member", "frames", "ms", "cold_share", "played_share",
+                     "cold_skin_mm", "played_skin_mm"},
+                    "motion.csv");
+    const auto values = [](const CsvTable& frames, FrameGuess start, const char* column) {
+        return by_pose(frames.where("start", start), column);
     };
-    std::map<std::tuple<std::string, std::string, std::string, std::string>, Frames> all;
-    for (const PlayedRow& row : played) {
-        Frames& frames = all[{row.clip, row.method, row.setting, row.member}];
-        const int start = static_cast<int>(row.start);
-        if (row.start == FrameGuess::frame_before) frames.ms.push_back(row.ms);
-        if (row.error_joint_pct) frames.error[start][row.pose] = *row.error_joint_pct;
-        if (row.skin_mm) frames.skin_mm[start][row.pose] = *row.skin_mm;
-    }
-    const auto share = [](const std::map<std::string, double>& errors, const std::map<std::string, double>& of_lbs) {
-        std::vector<double> own, lbs;
-        for (const auto& [pose, error] : errors)
-            if (of_lbs.contains(pose)) own.push_back(error), lbs.push_back(of_lbs.at(pose));
-        return analysis::share(own, lbs);
-    };
-    const auto mean = [](const std::map<std::string, double>& values) {
+    const auto mean = [](const ValueByPose& of_pose) {
         std::vector<double> numbers;
-        for (const auto& [pose, value] : values) numbers.push_back(value);
+        for (const auto& [pose, value] : of_pose) numbers.push_back(value);
         return analysis::mean(numbers);
     };
-    for (const auto& [key, frames] : all) {
-        const auto& [clip, method, setting, member] = key;
+    std::vector<CsvTable> all = played.groups({"clip", "method", "setting", "member"});
+    std::ranges::sort(all, {}, [](const CsvTable& of) {
+        return std::tuple(of[0].text("clip"), of[0].text("method"), of[0].text("setting"), of[0].text("member"));
+    });
+    using enum FrameGuess;
+    for (const CsvTable& frames : all)
         for (const ChosenSetting& chosen : settings) {
-            const bool is_shown = std::ranges::count(comparison_times().tables_ms, chosen.budget_ms) > 0;
-            if (!is_shown || chosen.method != method || chosen.setting != setting) continue;
-            const auto lbs_setting = std::ranges::find_if(settings, [&](const ChosenSetting& chosen_setting) {
-                return chosen_setting.method == baseline && chosen_setting.budget_ms == chosen.budget_ms;
-            });
-            if (lbs_setting == settings.end()) continue;
-            const auto lbs = all.find({clip, baseline, lbs_setting->setting, member});
-            if (lbs == all.end()) continue;
-            const auto& of_lbs = lbs->second.error[static_cast<int>(FrameGuess::cold)];
-            rows.push_back({clip, chosen.budget_ms, method, setting, member, static_cast<int>(frames.error[0].size()),
-                            analysis::median(frames.ms), share(frames.error[0], of_lbs), share(frames.error[1], of_lbs),
-                            mean(frames.skin_mm[0]), mean(frames.skin_mm[1])});
+            const std::string &clip = frames[0].text("clip"), &member = frames[0].text("member");
+            if (!has_table(chosen.budget_ms) ||
+                !frames[0].has({{"method", chosen.method}, {"setting", chosen.setting}}))
+                continue;
+            const ChosenSetting* of_lbs = chosen_setting(settings, baseline, chosen.budget_ms);
+            if (!of_lbs) continue;
+            const CsvTable lbs =
+                played.where({{"clip", clip}, {"method", baseline}, {"setting", of_lbs->setting}, {"member", member}});
+            if (lbs.rows() == 0) continue;
+            const ValueByPose cold_of_lbs = values(lbs, cold, "error_joint_pct"),
+                              cold_errors = values(frames, cold, "error_joint_pct");
+            motion.add_row({clip, chosen.budget_ms, chosen.method, chosen.setting, member, cold_errors.size(),
+                            analysis::median(frames.where("start", frame_before).numbers("ms")),
+                            share_over_poses(cold_errors, cold_of_lbs),
+                            share_over_poses(values(frames, frame_before, "error_joint_pct"), cold_of_lbs),
+                            mean(values(frames, cold, "skin_mm")), mean(values(frames, frame_before, "skin_mm"))});
         }
+    return motion;
+}
+
+std::vector<ChosenSetting> chosen_settings(const CsvTable& training)
+{
+    const std::vector<CsvTable> tried = training.groups({"method", "setting"});
+    const auto finished_poses = [](const CsvTable& rows) { return rows.where("outcome", "finished").rows(); };
+    int poses = 0;  // a ladder that ended early on one body, or a shape that is not finite, has fewer
+    for (const CsvTable& rows : tried) poses = std::max(poses, finished_poses(rows));
+    std::vector<ChosenSetting> sound;  // without a budget, and with the logarithm of the error
+    for (const CsvTable& rows : tried) {
+        std::vector<double> log_error;
+        for (const Row& row : rows)
+            for (const EnsembleMember& member : family())
+                if (const auto error = row.number_or_nothing(member.name + "_pct"))
+                    log_error.push_back(std::log(*error));
+        if (finished_poses(rows) == poses && !log_error.empty())
+            sound.push_back({0.0, rows[0].text("method"), rows[0].text("setting"),
+                             analysis::mean(rows.known_numbers("ms")), analysis::mean(log_error)});
     }
-    return rows;
+    std::vector<ChosenSetting> chosen;
+    for (const ComparedMethod& method : methods())
+        for (const double budget_ms : comparison_times().budgets_ms) {
+            const ChosenSetting* best = nullptr;
+            for (const ChosenSetting& one : sound)
+                if (one.method == method.name && !(one.training_ms > budget_ms) &&
+                    (!best || one.training_error_pct < best->training_error_pct))
+                    best = &one;
+            if (best)
+                chosen.push_back(
+                    {budget_ms, method.name, best->setting, best->training_ms, std::exp(best->training_error_pct)});
+        }
+    return chosen;
 }
 
 }  // namespace experiments

@@ -43,8 +43,8 @@ Columns<MemberErrors> member_error_columns()
 const Columns<PointRow> point_columns = MEMBER_COLUMNS(PointRow, pose, body, stratum, method, flesh, setting, outcome,
                                                        ms, times_pbs, clock, skin_mm, inverted) +
                                         analysis::within(&PointRow::errors, member_error_columns());
-const Columns<PlayedRow> played_columns =
-    MEMBER_COLUMNS(PlayedRow, pose, clip, method, setting, start, member, ms, error_joint_pct, skin_mm);
+const std::vector<std::string> played_columns = {"pose",   "clip", "method",          "setting", "start",
+                                                 "member", "ms",   "error_joint_pct", "skin_mm"};
 
 namespace {
 
@@ -352,10 +352,10 @@ void play(const ComparisonCase& comparison, const ComparedBody& body, const Sett
             const int last =
                 static_cast<int>(std::lround(reference.frame * played_rate_hz / reference.scene.motion.rate_hz));
             const auto add = [&](FrameGuess start, const std::vector<double>& samples_ms) {
-                measurements.played.push_back({reference.name, comparison.clip, setting.method->name, setting.text(),
-                                               start, members[m].name, analysis::median(samples_ms),
-                                               body.error_joint_pct(pose, m, deformer->positions()),
-                                               body.skin_mm(pose, m, deformer->positions())});
+                measurements.played.add_row({reference.name, comparison.clip, setting.method->name, setting.text(),
+                                             start, members[m].name, analysis::median(samples_ms),
+                                             body.error_joint_pct(pose, m, deformer->positions()),
+                                             body.skin_mm(pose, m, deformer->positions())});
             };
             std::vector<double> samples_ms;
             for (int frame = std::max(0, last - played_frames); frame <= last; ++frame) {

@@ -51,14 +51,7 @@ extern const analysis::Columns<PointRow> point_columns;
 // played.csv: one setting in one frame of a clip.
 enum class FrameGuess { cold, frame_before };
 NAMED_OPTIONS(FrameGuess, cold, frame_before)
-struct PlayedRow {
-    std::string pose, clip, method, setting;
-    FrameGuess start = FrameGuess::cold;
-    std::string member;
-    double ms = 0.0;  // median over the frames before
-    std::optional<double> error_joint_pct = {}, skin_mm = {};
-};
-extern const analysis::Columns<PlayedRow> played_columns;
+extern const std::vector<std::string> played_columns;  // ms: median over the frames before
 
 // What a run measures. training: all settings in the training poses, with the flesh of training_members(). evaluation:
 // the chosen settings in all other poses, with the flesh of every member. played: the chosen settings along a clip.
@@ -78,7 +71,7 @@ nlohmann::json to_json(const ComparisonCase& comparison);
 
 struct Measurements {
     std::vector<PointRow> points = {};
-    std::vector<PlayedRow> played = {};
+    analysis::CsvTable played{played_columns, "played.csv"};
     std::string breakdown = {};  // PBS, LBS or a deformer of the user's own that is not finite
 };
 // InputError as read_references, and where a deformer of the user's own fails.

@@ -16,18 +16,18 @@ namespace experiments {
 namespace {
 
 // The reference of each pose again, so that the folder has all that the tables are computed from.
-std::vector<OwnErrorRow> own_errors(const ComparisonCase& comparison)
+analysis::CsvTable own_errors(const ComparisonCase& comparison)
 {
     const pbs::Character character = pbs::make_character(comparison.poses.front().scene.character);
-    std::vector<OwnErrorRow> rows;
+    analysis::CsvTable own(own_error_columns, "references.csv");
     for (const ReferencePose& pose : comparison.poses)
         for (const KeptReference& reference :
              read_references(pose.name, character, bones_in(pose, character.skeleton)).members) {
             const double own_pct = reference.own_error_pct();
-            rows.push_back({pose.name, pose.of.body, pose.stratum, reference.member.name, reference.outcome,
-                            std::isfinite(own_pct) ? std::optional(own_pct) : std::nullopt});
+            own.add_row({pose.name, pose.of.body, pose.stratum, reference.member.name, reference.outcome,
+                         std::isfinite(own_pct) ? std::optional(own_pct) : std::nullopt});
         }
-    return rows;
+    return own;
 }
 
 std::string measure_and_record(const ComparisonCase& comparison, const std::string& folder)
@@ -35,12 +35,11 @@ std::string measure_and_record(const ComparisonCase& comparison, const std::stri
     const Measurements measurements = measure(comparison);
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
     if (comparison.what == Measured::played)
-        table_of(played_columns, measurements.played).write(path("played.csv"));
+        measurements.played.write(path("played.csv"));
     else
         table_of(point_columns, measurements.points)
             .write(path(comparison.what == Measured::training ? "training.csv" : "points.csv"));
-    if (comparison.what == Measured::evaluation)
-        table_of(own_error_columns, own_errors(comparison)).write(path("references.csv"));
+    if (comparison.what == Measured::evaluation) own_errors(comparison).write(path("references.csv"));
     return measurements.breakdown;
 }
 
@@ -92,20 +91,21 @@ StudyPlan plan_with(bool full, const std::string& external_file)
 // 2. The tables over all poses.
 bool conclude(const FinishedRuns& finished)
 {
-    if (const std::vector<PointRow> training = finished.rows(point_columns, "training.csv"); !training.empty())
+    if (const analysis::CsvTable training = finished.table(point_columns.names(), "training.csv"); training.rows() > 0)
         finished.write("settings.csv", chosen_columns, chosen_settings(training));
-    const std::vector<OwnErrorRow> own = finished.rows(own_error_columns, "references.csv");
-    const Comparison comparison = concluded(finished.rows(point_columns, "points.csv"), own, kept_settings());
-    finished.write("references.csv", own_error_columns, own);
-    finished.write("errors.csv", compared_columns, comparison.errors);
-    finished.write("methods.csv", method_columns, comparison.methods);
-    finished.write("pairs.csv", method_pair_columns, comparison.pairs);
-    finished.write("decisions.csv", decision_columns, comparison.decisions);
-    finished.write("curves.csv", method_curve_columns, comparison.curves);
-    finished.write("profiles.csv", solved_columns, comparison.profiles);
-    finished.write("starts.csv", other_start_columns, comparison.starts);
-    if (const std::vector<PlayedRow> played = finished.rows(played_columns, "played.csv"); !played.empty())
-        finished.write("motion.csv", motion_columns, concluded(played, kept_settings()));
+    const analysis::CsvTable own = finished.table(own_error_columns, "references.csv"),
+                             points = finished.table(point_columns.names(), "points.csv"),
+                             played = finished.table(played_columns, "played.csv");
+    const Comparison comparison = concluded(points, own, kept_settings());
+    finished.write("references.csv", own);
+    finished.write("errors.csv", comparison.errors);
+    finished.write("methods.csv", comparison.methods);
+    finished.write("pairs.csv", comparison.pairs);
+    finished.write("decisions.csv", comparison.decisions);
+    finished.write("curves.csv", comparison.curves);
+    finished.write("profiles.csv", comparison.profiles);
+    finished.write("starts.csv", comparison.starts);
+    if (played.rows() > 0) finished.write("motion.csv", concluded_motion(played, kept_settings()));
     return true;
 }
 

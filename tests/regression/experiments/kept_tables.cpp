@@ -1,21 +1,9 @@
-// The kept records, read as rows and written again, have the same columns and cells. Reference: the files, which
-// earlier versions wrote.
+// The kept records are read as tables, have identifiers in their keys, and their conclusions follow from their values.
+// Reference: the files, which earlier versions wrote.
 #include "analysis/records/record_files.hpp"
 #include "experiments/reproduce/reproduce.hpp"
 #include "experiments/reproduce/studies.hpp"
-#include "experiments/run/metrics_table.hpp"
-#include "experiments/run/region_record.hpp"
-#include "experiments/studies/ambiguity/readings.hpp"
-#include "experiments/studies/artefacts/artefact_values.hpp"
-#include "experiments/studies/convergence/convergence_case.hpp"
-#include "experiments/studies/ensemble/ensemble.hpp"
-#include "experiments/studies/jiggle/jiggle_records.hpp"
-#include "experiments/studies/setup/body_setup.hpp"
-#include "experiments/studies/stability/stability_cells.hpp"
-#include "experiments/studies/stiffness/stiffness_ratios.hpp"
-#include "experiments/studies/timing/timing.hpp"
 #include "experiments/studies/work_precision/conclusions.hpp"
-#include "reference_fem/verification/verification_record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,16 +18,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-
-// The columns of a file, in its order; some kept records lack columns. std::out_of_range for a column that is not
-// declared.
-template <typename Row>
-analysis::Columns<Row> columns_in(const analysis::CsvTable& table, const analysis::Columns<Row>& all)
-{
-    analysis::Columns<Row> columns;
-    for (const std::string& name : table.columns()) columns.push_back(all.named(name));
-    return columns;
-}
 
 // Equal texts, or equal numbers in different spelling: 1.728e+07, 17280000.
 bool is_same_cell(const std::string& one, const std::string& other)
@@ -98,56 +76,6 @@ analysis::CsvTable kept_table(const std::string& name)
                : table;
 }
 
-constexpr bool some = false;  // of the columns may be missing
-
-template <typename Row>
-void expect_same(const analysis::Columns<Row>& all, const std::string& file, bool is_complete = true)
-{
-    const analysis::CsvTable table = kept_table(file);
-    const analysis::Columns<Row> columns = is_complete ? all : columns_in(table, all);
-    expect_same_cells(table_of(columns, rows_of(columns, table)), table, file);
-}
-
-TEST(KeptTables, ReadAsRowsAndWrittenAgainAreTheSame)
-{
-    expect_same(experiments::metric_columns_of(experiments::read_scene("limb_twist", {})), "volume/runs/metrics.csv",
-                some);
-    expect_same(experiments::section_columns, "artefacts/runs/sections.csv");
-    expect_same(experiments::intersection_columns, "artefacts/runs/intersections.csv");
-    expect_same(experiments::response_columns, "jiggle/runs/responses.csv");
-    expect_same(experiments::zone_columns, "jiggle/runs/zone.csv");
-    expect_same(experiments::stiffness_columns, "stiffness/runs/stiffness.csv");
-    expect_same(experiments::exponent_columns(), "stiffness/exponents.csv", some);
-    expect_same(experiments::claim_change_columns(), "ambiguity/runs/ambiguity.csv", some);
-    expect_same(experiments::volume_change_columns, "ambiguity/runs/figures.csv");
-    expect_same(experiments::timing_columns, "timing/runs/timing.csv");
-    expect_same(experiments::feature_columns, "timing/runs/features.csv");
-    expect_same(experiments::order_columns, "timing/runs/orders.csv");
-    expect_same(experiments::target_columns, "timing/runs/targets.csv");
-    expect_same(experiments::answer_columns, "timing/answers.csv", some);
-    expect_same(reference_fem::verification_columns(), "verification/verification.csv");
-    expect_same(experiments::rate_columns, "convergence/runs/rates.csv");
-    expect_same(experiments::cell_columns, "stability/runs/cells.csv");
-    expect_same(experiments::start_columns, "stability/runs/starts.csv");
-    expect_same(experiments::part_columns, "ensemble/runs/parts.csv");
-    expect_same(experiments::attachment_columns, "ensemble/runs/attachments.csv");
-    expect_same(experiments::own_error_columns, "work_precision/references.csv");
-    expect_same(experiments::chosen_columns, "work_precision/settings.csv");
-    expect_same(experiments::compared_columns, "work_precision/errors.csv");
-    expect_same(experiments::method_columns, "work_precision/methods.csv");
-    expect_same(experiments::method_pair_columns, "work_precision/pairs.csv");
-    expect_same(experiments::decision_columns, "work_precision/decisions.csv");
-    expect_same(experiments::method_curve_columns, "work_precision/curves.csv");
-    expect_same(experiments::solved_columns, "work_precision/profiles.csv");
-    expect_same(experiments::other_start_columns, "work_precision/starts.csv");
-    expect_same(experiments::motion_columns, "work_precision/motion.csv");
-    expect_same(experiments::cell_columns, "stability/map_time_step_k_stretch.csv", some);
-    expect_same(experiments::cell_columns, "stability/map_iterations_twist.csv", some);
-    expect_same(experiments::start_columns, "stability/starts.csv", some);
-    expect_same(experiments::trial_columns, "setup/runs/trials.csv");
-    expect_same(experiments::key_columns, "setup/runs/changed_keys.csv");
-}
-
 // No two rows of verification.csv share these; description and mesh are words for readers.
 TEST(KeptTables, OfTheVerificationIdentifyEachRow)
 {
@@ -184,7 +112,9 @@ TEST(KeptTables, HaveIdentifiersInTheirKeys)
     for (const auto& entry : fs::recursive_directory_iterator(PBS_KEPT_RECORDS)) {
         const std::string file = entry.path().string(), name = name_of_table(entry.path());
         if (!name.ends_with(".csv")) continue;
-        const analysis::CsvTable table = analysis::parse_csv(experiments::kept_text(file), file);
+        const std::string text = experiments::kept_text(file);
+        const analysis::CsvTable table = analysis::parse_csv(text, file);
+        EXPECT_EQ(table.text(), text) << file << " as it is read and written again";
         for (const std::string& column : table.columns()) {
             if (has_words(name, column)) continue;
             const std::string allowed = letters + (column == "joint"                            ? "|"
@@ -259,17 +189,16 @@ const double six_digits = 1e-5;  // relative: half a unit of the last kept digit
 
 TEST(KeptValues, OfMotionFollowFromThePlayedFrames)
 {
-    const auto played = rows_of(experiments::played_columns, kept_table("work_precision/runs/played.csv"));
-    const auto kept = rows_of(experiments::motion_columns, kept_table("work_precision/motion.csv"));
-    const std::vector<experiments::MotionRow> concluded = experiments::concluded(played, experiments::kept_settings());
-    ASSERT_EQ(concluded.size(), kept.size());
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-        const experiments::MotionRow &now = concluded[i], &before = kept[i];
-        EXPECT_EQ(std::tie(now.clip, now.budget_ms, now.method, now.setting, now.member, now.frames),
-                  std::tie(before.clip, before.budget_ms, before.method, before.setting, before.member, before.frames));
-        for (const auto value : {&experiments::MotionRow::cold_share, &experiments::MotionRow::played_share,
-                                 &experiments::MotionRow::cold_skin_mm, &experiments::MotionRow::played_skin_mm})
-            EXPECT_NEAR(now.*value, before.*value, six_digits * before.*value) << now.method << ", " << now.setting;
+    const analysis::CsvTable kept = kept_table("work_precision/motion.csv"),
+                             concluded = experiments::concluded_motion(kept_table("work_precision/runs/played.csv"),
+                                                                       experiments::kept_settings());
+    ASSERT_EQ(concluded.rows(), kept.rows());
+    for (int i = 0; i < kept.rows(); ++i) {
+        for (const char* column : {"clip", "budget_ms", "method", "setting", "member", "frames"})
+            EXPECT_EQ(concluded.text_at(i, column), kept.text_at(i, column));
+        for (const char* column : {"cold_share", "played_share", "cold_skin_mm", "played_skin_mm"})
+            EXPECT_NEAR(concluded.number(i, column), kept.number(i, column), six_digits * kept.number(i, column))
+                << concluded.text_at(i, "method") << ", " << concluded.text_at(i, "setting");
     }
 }
 

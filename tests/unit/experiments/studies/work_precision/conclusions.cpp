@@ -18,6 +18,8 @@ namespace conclusions_tests {
 namespace {
 
 using namespace experiments;
+using analysis::CsvTable;
+using TableRow = CsvTable::Row;
 using Decision = analysis::MethodDecision;
 using enum ComparisonTable;
 
@@ -51,7 +53,13 @@ Share everywhere(double share)
 // Rows of all poses, own errors of the references of 0.1 %, and settings whose names are those of their methods.
 struct Rows {
     std::vector<PointRow> points = {};
-    std::vector<OwnErrorRow> own = {};
+    struct OwnError {
+        std::string pose, body;
+        Stratum stratum;
+        std::string member;
+        std::optional<double> own_error_pct;
+    };
+    std::vector<OwnError> own = {};
     std::vector<ChosenSetting> settings = {};
     std::vector<double> times_ms;
 
@@ -59,7 +67,7 @@ struct Rows {
     {
         for (int pose = 0; pose < movements + folds; ++pose)
             for (const EnsembleMember& member : family())
-                own.push_back({pose_name(pose), body_of(pose), stratum_of(pose), member.name, "reached", 0.1});
+                own.push_back({pose_name(pose), body_of(pose), stratum_of(pose), member.name, 0.1});
         add("lbs", 0.02, everywhere(1.0));
     }
 
@@ -85,47 +93,45 @@ struct Rows {
         }
     }
 
-    Comparison concluded() const { return experiments::concluded(points, own, settings); }
+    Comparison concluded() const
+    {
+        CsvTable own_errors(own_error_columns, "references.csv");
+        for (const OwnError& error : own)
+            own_errors.add_row({error.pose, error.body, error.stratum, error.member, "reached", error.own_error_pct});
+        return experiments::concluded(table_of(point_columns, points), own_errors, settings);
+    }
 };
 
-const MethodRow& method_row(const Comparison& comparison, ComparisonTable table, double budget_ms,
-                            const std::string& method)
+TableRow method_row(const Comparison& comparison, ComparisonTable table, double budget_ms, const std::string& method)
 {
-    const auto found = std::ranges::find_if(comparison.methods, [&](const MethodRow& row) {
-        return row.table == table && row.budget_ms == budget_ms && row.method == method;
-    });
-    if (found == comparison.methods.end()) throw std::out_of_range(method);
-    return *found;
+    return comparison.methods.find({{"table", table}, {"budget_ms", budget_ms}, {"method", method}}).value();
 }
 
 std::vector<std::string> ranked(const Comparison& comparison, ComparisonTable table, double budget_ms)
 {
-    std::vector<std::string> methods;
-    for (const MethodRow& row : comparison.methods)
-        if (row.table == table && row.budget_ms == budget_ms) methods.push_back(row.method + " " + row.letters);
-    return methods;
+    return comparison.methods.where({{"table", table}, {"budget_ms", budget_ms}}).map([](const TableRow& row) {
+        return row.text("method") + " " + row.text("letters");
+    });
 }
 
 Decision decision(const Comparison& comparison, const std::string& first, const std::string& second,
                   ComparisonTable table = known, const std::string& without_body = "", double budget_ms = 1.0)
 {
-    const auto found = std::ranges::find_if(comparison.decisions, [&](const DecisionRow& row) {
-        return std::tie(row.table, row.budget_ms, row.without_body, row.first, row.second) ==
-               std::tie(table, budget_ms, without_body, first, second);
-    });
-    if (found == comparison.decisions.end()) throw std::out_of_range(first + " and " + second);
-    return found->decision;
+    return comparison.decisions
+        .find({{"table", table},
+               {"budget_ms", budget_ms},
+               {"without_body", without_body},
+               {"first", first},
+               {"second", second}})
+        .value()
+        .value<Decision>("decision");
 }
 
 // By member, at 1 ms.
-std::map<std::string, MethodPairRow> pairs(const Comparison& comparison, const std::string& first,
-                                           const std::string& second)
+std::map<std::string, TableRow> pairs(const Comparison& comparison, const std::string& first, const std::string& second)
 {
-    std::map<std::string, MethodPairRow> of_member;
-    for (const MethodPairRow& row : comparison.pairs)
-        if (row.table == known && row.budget_ms == 1.0 && row.first == first && row.second == second)
-            of_member[row.member] = row;
-    return of_member;
+    return comparison.pairs.where({{"table", known}, {"budget_ms", 1.0}, {"first", first}, {"second", second}})
+        .by("member");
 }
 
 // Flesh of each reference leaves 10 to 17 % of LBS's error, flesh of the first member 10 % against it and 90 % against
@@ -152,23 +158,23 @@ const Comparison& comparison_of_four()
 TEST(Conclusions, RankMethodsByTheirShareOfTheErrorOfLbs)
 {
     const Comparison& comparison = comparison_of_four();
-    const MethodRow& newton = method_row(comparison, known, 1.0, "quasi_newton");
-    EXPECT_NEAR(newton.share, 0.135, rounding) << "the median over the members";
-    EXPECT_NEAR(newton.share_low, 0.10, rounding);
-    EXPECT_NEAR(newton.share_high, 0.17, rounding);
-    EXPECT_EQ(newton.poses, movements);
-    EXPECT_EQ(newton.fewest_poses, movements);
-    EXPECT_EQ(newton.takes, (std::vector<std::string>{"material", "attachment", "start"}));
-    EXPECT_EQ(newton.setting, "of_quasi_newton");
-    EXPECT_EQ(newton.ms, 0.6);
-    EXPECT_EQ(newton.times_pbs, 1.2);
-    EXPECT_EQ(newton.skin_mm, 3.0);
-    EXPECT_NEAR(method_row(comparison, known, 1.0, "lbs").share, 1.0, rounding);
+    const TableRow newton = method_row(comparison, known, 1.0, "quasi_newton");
+    EXPECT_NEAR(newton.number("share"), 0.135, rounding) << "the median over the members";
+    EXPECT_NEAR(newton.number("share_low"), 0.10, rounding);
+    EXPECT_NEAR(newton.number("share_high"), 0.17, rounding);
+    EXPECT_EQ(newton.integer("poses"), movements);
+    EXPECT_EQ(newton.integer("fewest_poses"), movements);
+    EXPECT_EQ(newton.text("takes"), "material attachment start");
+    EXPECT_EQ(newton.text("setting"), "of_quasi_newton");
+    EXPECT_EQ(newton.number("ms"), 0.6);
+    EXPECT_EQ(newton.number("times_pbs"), 1.2);
+    EXPECT_EQ(newton.number("skin_mm"), 3.0);
+    EXPECT_NEAR(method_row(comparison, known, 1.0, "lbs").number("share"), 1.0, rounding);
     EXPECT_EQ(ranked(comparison, known, 1.0),
               (std::vector<std::string>{"quasi_newton a", "pbs b", "delta_mush c", "lbs d"}));
     // Of a guess, the median is 0.9. The pairs with PBS and delta mush depend on the member, so that their letters are
     // shared.
-    EXPECT_NEAR(method_row(comparison, guessed, 1.0, "quasi_newton").share, 0.9, rounding);
+    EXPECT_NEAR(method_row(comparison, guessed, 1.0, "quasi_newton").number("share"), 0.9, rounding);
     EXPECT_EQ(ranked(comparison, guessed, 1.0),
               (std::vector<std::string>{"pbs a", "delta_mush b", "quasi_newton ab", "lbs c"}));
 }
@@ -183,24 +189,26 @@ TEST(Conclusions, DecidePairsByWhatEachMethodIsGiven)
     const auto of_member = pairs(comparison, "lbs", "pbs");
     ASSERT_EQ(of_member.size(), members_of_family);
     for (const auto& [member, row] : of_member) {
-        EXPECT_EQ(std::tuple(row.wins, row.ties, row.losses), std::tuple(0, 0, movements)) << member;
-        EXPECT_NEAR(row.p, std::exp2(1 - movements), 1e-9 * row.p);
-        EXPECT_NEAR(row.p_holm, 6.0 * row.p, 1e-9 * row.p) << "of six pairs, all of which are as clear";
-        for (const double ratio : {row.ratio, row.ratio_low, row.ratio_high}) EXPECT_NEAR(ratio, 0.5, rounding);
+        EXPECT_TRUE(row.has({{"wins", 0}, {"ties", 0}, {"losses", movements}})) << member;
+        const double p = row.number("p");
+        EXPECT_NEAR(p, std::exp2(1 - movements), 1e-9 * p);
+        EXPECT_NEAR(row.number("p_holm"), 6.0 * p, 1e-9 * p) << "of six pairs, all of which are as clear";
+        for (const char* ratio : {"ratio", "ratio_low", "ratio_high"}) EXPECT_NEAR(row.number(ratio), 0.5, rounding);
     }
 }
 
 TEST(Conclusions, HaveTheRowsThatTheyCompareInTheirTable)
 {
     const Comparison& comparison = comparison_of_four();
-    std::map<std::tuple<ComparisonTable, double, std::string>, int> rows;
-    for (const ComparedRow& row : comparison.errors) {
-        ++rows[{row.table, row.budget_ms, row.point.method}];
-        const GivenFlesh flesh = row.table == known ? GivenFlesh::own : GivenFlesh::standard;
-        EXPECT_EQ(row.point.flesh, row.point.method == "quasi_newton" ? flesh : GivenFlesh::none);
+    const std::vector<CsvTable> methods = comparison.errors.groups({"table", "budget_ms", "method"});
+    EXPECT_EQ(methods.size(), 2 * comparison_times().tables_ms.size() * 4);
+    for (const CsvTable& method : methods) {
+        EXPECT_EQ(method.rows(), movements + folds) << method[0].text("method");
+        const double share = method[0].number("nu_0.3_pct") / method[0].number("smooth_pct");
+        const double of_lbs = error_of_lbs(0, 4) / error_of_lbs(0, 0);
+        if (method[0].text("method") == "quasi_newton")
+            EXPECT_NEAR(share, (method[0].has({{"table", known}}) ? 1.4 : 9.0) * of_lbs, 10.0 * rounding * share);
     }
-    EXPECT_EQ(rows.size(), 2 * comparison_times().tables_ms.size() * 4);
-    for (const auto& [key, count] : rows) EXPECT_EQ(count, movements + folds) << std::get<2>(key);
 }
 
 // Twice the time of a setting on this machine is within the budget, only its time is, or not even that.
@@ -208,7 +216,7 @@ TEST(Conclusions, StateWhetherTheTimeIsKept)
 {
     const Comparison& comparison = comparison_of_four();
     const auto within = [&](double budget_ms, const char* name) {
-        return method_row(comparison, known, budget_ms, name).within;
+        return method_row(comparison, known, budget_ms, name).text("within");
     };
     EXPECT_EQ(within(10.0, "quasi_newton"), "doubled");
     EXPECT_EQ(within(1.0, "quasi_newton"), "once");
@@ -219,13 +227,13 @@ TEST(Conclusions, StateWhetherTheTimeIsKept)
 TEST(Conclusions, AreTiesWhereTheDifferenceIsNotAboveTheReferencesOwnError)
 {
     Rows rows = four_methods();
-    for (OwnErrorRow& row : rows.own)
+    for (Rows::OwnError& row : rows.own)
         // LBS's error minus PBS's
         if (row.pose == pose_name(0) && row.member == "smooth") row.own_error_pct = 0.5 * error_of_lbs(0, 0);
     const auto of_member = pairs(rows.concluded(), "lbs", "pbs");
-    EXPECT_EQ(of_member.at("smooth").ties, 1);
-    EXPECT_EQ(of_member.at("smooth").losses, movements - 1);
-    EXPECT_EQ(of_member.at("nu_0.3").ties, 0);
+    EXPECT_EQ(of_member.at("smooth").integer("ties"), 1);
+    EXPECT_EQ(of_member.at("smooth").integer("losses"), movements - 1);
+    EXPECT_EQ(of_member.at("nu_0.3").integer("ties"), 0);
 }
 
 // On one member PBS is farther than LBS.
@@ -236,12 +244,12 @@ TEST(Conclusions, AreNotChangedByAMemberWithoutAnOwnError)
     Rows rows;
     rows.add("pbs", 0.3, [](int, std::size_t m) { return m == other ? 2.0 : 0.5; });
     EXPECT_EQ(decision(rows.concluded(), "lbs", "pbs"), Decision::depends);
-    for (OwnErrorRow& row : rows.own)
+    for (Rows::OwnError& row : rows.own)
         if (row.member == name) row.own_error_pct.reset();
     const Comparison unknown = rows.concluded();
     EXPECT_EQ(decision(unknown, "lbs", "pbs"), Decision::second_is_nearer);
     EXPECT_EQ(pairs(unknown, "lbs", "pbs").size(), members_of_family - 1);
-    std::erase_if(rows.own, [&](const OwnErrorRow& row) { return row.member == name; });
+    std::erase_if(rows.own, [&](const Rows::OwnError& row) { return row.member == name; });
     EXPECT_EQ(decision(rows.concluded(), "lbs", "pbs"), Decision::second_is_nearer) << "without rows";
 }
 
@@ -252,12 +260,12 @@ TEST(Conclusions, SkipPosesInWhichAMemberWasNotReached)
              [](int pose, std::size_t m) { return pose < 3 && m == 6 ? std::nullopt : std::optional(0.5); });
     const Comparison comparison = rows.concluded();
     const auto of_member = pairs(comparison, "lbs", "pbs");
-    EXPECT_EQ(of_member.at("rigid_capsules").losses, movements - 3);
-    EXPECT_EQ(of_member.at("smooth").losses, movements);
-    const MethodRow& pbs = method_row(comparison, known, 1.0, "pbs");
-    EXPECT_NEAR(pbs.share_high, 0.5, rounding);
-    EXPECT_EQ(pbs.poses, movements);
-    EXPECT_EQ(pbs.fewest_poses, movements - 3);
+    EXPECT_EQ(of_member.at("rigid_capsules").integer("losses"), movements - 3);
+    EXPECT_EQ(of_member.at("smooth").integer("losses"), movements);
+    const TableRow pbs = method_row(comparison, known, 1.0, "pbs");
+    EXPECT_NEAR(pbs.number("share_high"), 0.5, rounding);
+    EXPECT_EQ(pbs.integer("poses"), movements);
+    EXPECT_EQ(pbs.integer("fewest_poses"), movements - 3);
 }
 
 // Two methods leave 40 and 80 % of the error. Their labels are exchanged in some of the poses.
@@ -279,7 +287,8 @@ TEST(Attacks, ExchangedLabelsReverseTheAnswerOrLeaveItOpen)
     EXPECT_EQ(answer([](int pose) { return pose % 2 == 0; }), Decision::open);
     EXPECT_EQ(answer([](int pose) { return pose >= movements; }), Decision::first_is_nearer) << "folds decide nothing";
     const Comparison open = with_exchanged_labels([](int pose) { return pose % 2 == 0; }).concluded();
-    EXPECT_EQ(method_row(open, known, 1.0, "pbs").letters, method_row(open, known, 1.0, "delta_mush").letters);
+    EXPECT_EQ(method_row(open, known, 1.0, "pbs").text("letters"),
+              method_row(open, known, 1.0, "delta_mush").text("letters"));
 }
 
 // PBS is nearer on three bodies and farther on two. 24 to 16 of the poses are no difference, and 24 to 8 have p =
@@ -295,7 +304,7 @@ TEST(Conclusions, AreDrawnAgainWithoutEachBody)
     for (const char* body : {"lady", "frankie"})
         EXPECT_EQ(decision(comparison, "lbs", "pbs", known, body), Decision::second_is_nearer) << body;
     std::set<std::string> excluded;
-    for (const DecisionRow& row : comparison.decisions) excluded.insert(row.without_body);
+    for (const TableRow& row : comparison.decisions) excluded.insert(row.text("without_body"));
     EXPECT_EQ(excluded, (std::set<std::string>{"", "limb", "human", "man", "lady", "frankie"}));
 }
 
@@ -309,16 +318,16 @@ TEST(Conclusions, HaveFoldsInSharesOfTheirOwn)
     for (PointRow& row : rows.points)
         row.inverted = row.method == "pbs" && (row.pose == pose_name(1) || row.pose == pose_name(41)) ? 7 : 0;
     const Comparison comparison = rows.concluded();
-    const MethodRow& pbs = method_row(comparison, known, 1.0, "pbs");
-    EXPECT_NEAR(pbs.share, 0.5, rounding);
-    EXPECT_NEAR(pbs.fold_share.value(), 2.35, 10.0 * rounding);
-    EXPECT_NEAR(pbs.fold_low.value(), 2.0, 10.0 * rounding);
-    EXPECT_NEAR(pbs.fold_high.value(), 2.7, 10.0 * rounding);
-    EXPECT_EQ(pbs.inverted_poses, 1) << "by movement";
-    EXPECT_EQ(pbs.skin_mm, 3.0) << "by movement";
+    const TableRow pbs = method_row(comparison, known, 1.0, "pbs");
+    EXPECT_NEAR(pbs.number("share"), 0.5, rounding);
+    EXPECT_NEAR(pbs.number("fold_share"), 2.35, 10.0 * rounding);
+    EXPECT_NEAR(pbs.number("fold_low"), 2.0, 10.0 * rounding);
+    EXPECT_NEAR(pbs.number("fold_high"), 2.7, 10.0 * rounding);
+    EXPECT_EQ(pbs.integer("inverted_poses"), 1) << "by movement";
+    EXPECT_EQ(pbs.number("skin_mm"), 3.0) << "by movement";
     EXPECT_EQ(decision(comparison, "lbs", "pbs"), Decision::second_is_nearer);
     std::erase_if(rows.points, [](const PointRow& row) { return row.stratum == Stratum::fold; });
-    EXPECT_FALSE(method_row(rows.concluded(), known, 1.0, "pbs").fold_share);
+    EXPECT_EQ(method_row(rows.concluded(), known, 1.0, "pbs").text("fold_share"), "");
 }
 
 // It has no setting, and no time before it is measured.
@@ -327,17 +336,14 @@ TEST(Conclusions, HaveAMethodOfTheUsersOwnWithinTimesThatItKeeps)
     Rows rows = four_methods(comparison_times().budgets_ms);
     rows.add_points("mine", "", 0.5, everywhere(0.2), GivenFlesh::none);
     const Comparison comparison = rows.concluded();
-    std::set<double> tables, curves;
-    for (const MethodRow& row : comparison.methods)
-        if (row.method == "mine") {
-            tables.insert(row.budget_ms);
-            EXPECT_NEAR(row.share, 0.2, rounding);
-            EXPECT_TRUE(row.takes.empty());
-        }
-    for (const MethodCurveRow& row : comparison.curves)
-        if (row.method == "mine") curves.insert(row.budget_ms);
-    EXPECT_EQ(tables, (std::set<double>{1.0, 10.0}));
-    EXPECT_EQ(curves, (std::set<double>{0.5, 1.0, 2.0, 5.0, 10.0}));
+    const CsvTable mine = comparison.methods.where("method", "mine");
+    for (const TableRow& row : mine) {
+        EXPECT_NEAR(row.number("share"), 0.2, rounding);
+        EXPECT_EQ(row.text("takes"), "");
+    }
+    EXPECT_EQ(mine.where("table", known).numbers("budget_ms"), (std::vector<double>{1.0, 10.0}));
+    EXPECT_EQ(comparison.curves.where({{"table", known}, {"method", "mine"}}).numbers("budget_ms"),
+              (std::vector<double>{0.5, 1.0, 2.0, 5.0, 10.0}));
     EXPECT_EQ(decision(comparison, "pbs", "mine"), Decision::second_is_nearer);
     EXPECT_EQ(decision(comparison, "quasi_newton", "mine"), Decision::first_is_nearer);
     EXPECT_EQ(decision(comparison, "quasi_newton", "mine", guessed), Decision::depends);
@@ -353,13 +359,14 @@ TEST(Conclusions, HaveASlowMethodOfTheUsersOwnAtAnyTime)
     rows.add_points("mine", "", 190.0, everywhere(0.2), GivenFlesh::none);
     rows.add_points("quick", "", 0.5, everywhere(0.9), GivenFlesh::none);
     const Comparison comparison = rows.concluded();
-    EXPECT_NEAR(method_row(comparison, known, any_time_ms, "mine").share, 0.2, rounding);
-    EXPECT_EQ(method_row(comparison, known, any_time_ms, "pbs").setting, "of_pbs");
+    EXPECT_NEAR(method_row(comparison, known, any_time_ms, "mine").number("share"), 0.2, rounding);
+    EXPECT_EQ(method_row(comparison, known, any_time_ms, "pbs").text("setting"), "of_pbs");
     EXPECT_EQ(ranked(comparison, known, any_time_ms).size(), ranked(comparison, known, 10.0).size() + 1);
-    EXPECT_NEAR(method_row(comparison, guessed, any_time_ms, "quick").share, 0.9, rounding);
+    EXPECT_NEAR(method_row(comparison, guessed, any_time_ms, "quick").number("share"), 0.9, rounding);
     EXPECT_EQ(decision(comparison, "pbs", "mine", known, "", any_time_ms), Decision::second_is_nearer);
-    EXPECT_EQ(std::ranges::count(comparison.curves, "mine", &MethodCurveRow::method), 2) << "one point in each table";
-    EXPECT_EQ(std::ranges::count(comparison.profiles, any_time_ms, &SolvedRow::budget_ms), 0);
+    EXPECT_EQ(comparison.curves.where({{"method", "mine"}, {"budget_ms", any_time_ms}}).rows(), 2)
+        << "one point in each table";
+    EXPECT_EQ(comparison.profiles.where("budget_ms", any_time_ms).rows(), 0);
 }
 
 TEST(Conclusions, HaveACurveOverAllTimes)
@@ -369,16 +376,12 @@ TEST(Conclusions, HaveACurveOverAllTimes)
     rows.add_points("pbs", "in_haste", 0.04, everywhere(0.8), GivenFlesh::none);
     for (ChosenSetting& chosen : rows.settings)
         if (chosen.method == "pbs" && chosen.budget_ms < 0.5) chosen.setting = "in_haste";
-    std::vector<std::tuple<double, std::string, double>> curve;
-    for (const MethodCurveRow& row : rows.concluded().curves)
-        if (row.table == known && row.method == "pbs") {
-            EXPECT_NEAR(row.share, row.setting == "in_haste" ? 0.8 : 0.5, rounding);
-            curve.emplace_back(row.budget_ms, row.setting, row.ms);
-        }
-    ASSERT_EQ(curve.size(), comparison_times().budgets_ms.size());
-    for (std::size_t i = 0; i < curve.size(); ++i)
-        EXPECT_EQ(curve[i], i < 3 ? std::tuple(comparison_times().budgets_ms[i], std::string("in_haste"), 0.04)
-                                  : std::tuple(comparison_times().budgets_ms[i], std::string("of_pbs"), 0.3));
+    const CsvTable curve = rows.concluded().curves.where({{"table", known}, {"method", "pbs"}});
+    ASSERT_EQ(curve.numbers("budget_ms"), comparison_times().budgets_ms);
+    for (int i = 0; i < curve.rows(); ++i) {
+        EXPECT_NEAR(curve.number(i, "share"), i < 3 ? 0.8 : 0.5, rounding);
+        EXPECT_TRUE(curve[i].has({{"setting", i < 3 ? "in_haste" : "of_pbs"}, {"ms", i < 3 ? 0.04 : 0.3}})) << i;
+    }
 }
 
 // In ten of the 40 poses PBS leaves 30 % of the error and in the others 45 %; on one member it leaves 60 % everywhere,
@@ -394,15 +397,12 @@ TEST(Profiles, AreSharesOfSolvedPosesInTheMeanOverTheMembers)
     for (PointRow& row : rows.points)
         for (int pose = 0; pose < movements; ++pose)
             if (row.pose == pose_name(pose) && !is_reached(pose, 6)) row.errors[6].reset();
-    std::map<double, double> solved_pct;  // by target, at 1 ms
-    for (const SolvedRow& row : rows.concluded().profiles)
-        if (row.table == known && row.method == "pbs" && row.budget_ms == 1.0)
-            solved_pct[row.target_pct] = row.solved_pct;
-    ASSERT_EQ(solved_pct.size(), 3u);
-    EXPECT_EQ(solved_pct.at(20.0), 0.0);
-    EXPECT_DOUBLE_EQ(solved_pct.at(35.0), 7.0 * 25.0 / 8.0)
+    const CsvTable profile = rows.concluded().profiles.where({{"table", known}, {"method", "pbs"}, {"budget_ms", 1.0}});
+    ASSERT_EQ(profile.numbers("target_pct"), (std::vector<double>{20.0, 35.0, 50.0}));
+    EXPECT_EQ(profile.number(0, "solved_pct"), 0.0);
+    EXPECT_DOUBLE_EQ(profile.number(1, "solved_pct"), 7.0 * 25.0 / 8.0)
         << "five of the twenty poses with rigid capsules are a quarter, too";
-    EXPECT_DOUBLE_EQ(solved_pct.at(50.0), 7.0 * 100.0 / 8.0);
+    EXPECT_DOUBLE_EQ(profile.number(2, "solved_pct"), 7.0 * 100.0 / 8.0);
 }
 
 // Of three poses with another start. PBS leaves half of LBS's error in these and 90 % in the others.
@@ -418,12 +418,11 @@ TEST(OtherStarts, AreComparedInTheirOwnPosesAgainstTheFirstMember)
                row.pose != pose_name(2);
     });
     const Comparison comparison = rows.concluded();
-    ASSERT_EQ(comparison.starts.size(), 1u);
-    const OtherStartRow& row = comparison.starts.front();
-    EXPECT_EQ(std::tie(row.budget_ms, row.method, row.of, row.poses),
-              std::tuple(1.0, std::string("pbs_from_the_initial_guess"), std::string("pbs"), 3));
-    EXPECT_NEAR(row.share, 0.4, rounding);
-    EXPECT_NEAR(row.share_of_setting, 0.5, rounding);
+    ASSERT_EQ(comparison.starts.rows(), 1);
+    const TableRow row = comparison.starts[0];
+    EXPECT_TRUE(row.has({{"budget_ms", 1.0}, {"method", "pbs_from_the_initial_guess"}, {"of", "pbs"}, {"poses", 3}}));
+    EXPECT_NEAR(row.number("share"), 0.4, rounding);
+    EXPECT_NEAR(row.number("share_of_setting"), 0.5, rounding);
     EXPECT_EQ(ranked(comparison, known, 1.0), (std::vector<std::string>{"pbs a", "lbs b"}))
         << "a start has no row of its own";
 }
@@ -431,10 +430,10 @@ TEST(OtherStarts, AreComparedInTheirOwnPosesAgainstTheFirstMember)
 // By hand: geometric means sqrt(0.5 0.5) and sqrt(0.25 0.5) over the two frames.
 TEST(Motion, HasTheSharesOfTheColdAndThePlayedFrames)
 {
-    std::vector<PlayedRow> played;
+    CsvTable played(played_columns, "played.csv");
     const auto add = [&](const char* pose, const char* method, FrameGuess start, double error_pct, double skin_mm,
                          double ms) {
-        played.push_back({pose, "01_01", method, std::string("of_") + method, start, "smooth", ms, error_pct, skin_mm});
+        played.add_row({pose, "01_01", method, std::string("of_") + method, start, "smooth", ms, error_pct, skin_mm});
     };
     for (const auto& [pose, error_pct] : {std::pair("one", 10.0), {"two", 20.0}})
         for (const FrameGuess start : {FrameGuess::cold, FrameGuess::frame_before})
@@ -445,16 +444,16 @@ TEST(Motion, HasTheSharesOfTheColdAndThePlayedFrames)
     add("two", "pbs", FrameGuess::frame_before, 10.0, 3.0, 0.5);
     const std::vector<ChosenSetting> settings = {
         {1.0, "lbs", "of_lbs"}, {0.5, "pbs", "of_pbs"}, {1.0, "pbs", "of_pbs"}, {10.0, "pbs", "other"}};
-    const std::vector<MotionRow> rows = concluded(played, settings);
-    ASSERT_EQ(rows.size(), 2u) << "of the times of the tables, and of settings that were played";
-    const MotionRow& pbs = *std::ranges::find(rows, "pbs", &MotionRow::method);
-    EXPECT_EQ(std::tie(pbs.clip, pbs.budget_ms, pbs.setting, pbs.member, pbs.frames),
-              std::tuple(std::string("01_01"), 1.0, std::string("of_pbs"), std::string("smooth"), 2));
-    EXPECT_NEAR(pbs.cold_share, 0.5, rounding);
-    EXPECT_NEAR(pbs.played_share, std::sqrt(0.125), rounding);
-    EXPECT_EQ(pbs.cold_skin_mm, 4.0);
-    EXPECT_EQ(pbs.played_skin_mm, 2.0);
-    EXPECT_EQ(pbs.ms, 0.4) << "the median of 0.3 and 0.5";
+    const CsvTable rows = concluded_motion(played, settings);
+    ASSERT_EQ(rows.rows(), 2) << "of the times of the tables, and of settings that were played";
+    const TableRow pbs = rows.find({{"method", "pbs"}}).value();
+    EXPECT_TRUE(
+        pbs.has({{"clip", "01_01"}, {"budget_ms", 1.0}, {"setting", "of_pbs"}, {"member", "smooth"}, {"frames", 2}}));
+    EXPECT_NEAR(pbs.number("cold_share"), 0.5, rounding);
+    EXPECT_NEAR(pbs.number("played_share"), std::sqrt(0.125), rounding);
+    EXPECT_EQ(pbs.number("cold_skin_mm"), 4.0);
+    EXPECT_EQ(pbs.number("played_skin_mm"), 2.0);
+    EXPECT_EQ(pbs.number("ms"), 0.4) << "the median of 0.3 and 0.5";
 }
 
 // Settings of PBS in two training poses.
@@ -478,7 +477,7 @@ std::map<double, ChosenSetting> chosen_from(const std::vector<std::vector<PointR
     std::vector<PointRow> training;
     for (const auto& rows : tables) training.insert(training.end(), rows.begin(), rows.end());
     std::map<double, ChosenSetting> chosen;
-    for (const ChosenSetting& one : chosen_settings(training)) {
+    for (const ChosenSetting& one : chosen_settings(table_of(point_columns, training))) {
         EXPECT_EQ(one.method, "pbs");
         chosen[one.budget_ms] = one;
     }

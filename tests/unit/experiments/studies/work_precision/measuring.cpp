@@ -333,24 +333,22 @@ TEST(MeasuredMotion, BeginsEachFrameAtTheOneBefore)
     references.file("human_played.ref", packed(kept, human));
     const Measurements measurements = measure(of);
     EXPECT_TRUE(measurements.points.empty());
-    ASSERT_EQ(measurements.played.size(), 8u) << "two methods, two members, and two starts";
+    ASSERT_EQ(measurements.played.rows(), 8) << "two methods, two members, and two starts";
     const auto row = [&](const std::string& method, FrameGuess start, const std::string& member) {
-        return *std::ranges::find_if(measurements.played, [&](const PlayedRow& one) {
-            return one.method == method && one.start == start && one.member == member;
-        });
+        return measurements.played.find({{"method", method}, {"start", start}, {"member", member}}).value();
     };
     for (const char* member : {"smooth", "rigid_capsules"}) {
         SCOPED_TRACE(member);
-        const PlayedRow cold = row("lbs", FrameGuess::cold, member),
-                        played = row("lbs", FrameGuess::frame_before, member);
-        EXPECT_EQ(cold.error_joint_pct, played.error_joint_pct) << "LBS has no initial guess";
-        EXPECT_EQ(cold.pose, "human_played");
-        EXPECT_GT(played.ms, 0.0);
-        const PlayedRow newton_cold = row("quasi_newton", FrameGuess::cold, member),
-                        newton = row("quasi_newton", FrameGuess::frame_before, member);
-        EXPECT_LT(newton_cold.error_joint_pct.value(), cold.error_joint_pct.value());
-        EXPECT_LT(newton.error_joint_pct.value(), 0.5 * newton_cold.error_joint_pct.value());
-        EXPECT_LT(newton.skin_mm.value(), newton_cold.skin_mm.value());
+        constexpr const char* error = "error_joint_pct";
+        const auto cold = row("lbs", FrameGuess::cold, member), played = row("lbs", FrameGuess::frame_before, member);
+        EXPECT_EQ(cold.number(error), played.number(error)) << "LBS has no initial guess";
+        EXPECT_EQ(cold.text("pose"), "human_played");
+        EXPECT_GT(played.number("ms"), 0.0);
+        const auto newton_cold = row("quasi_newton", FrameGuess::cold, member),
+                   newton = row("quasi_newton", FrameGuess::frame_before, member);
+        EXPECT_LT(newton_cold.number(error), cold.number(error));
+        EXPECT_LT(newton.number(error), 0.5 * newton_cold.number(error));
+        EXPECT_LT(newton.number("skin_mm"), newton_cold.number("skin_mm"));
     }
 }
 
