@@ -26,36 +26,39 @@ constexpr double least_visible_pct =
     0.01;  // changes of volume and errors below it are no difference between two methods
 
 // The number of a cell; nothing for an empty cell and for one that is not finite, as of a frame that broke down.
-std::optional<double> finite(const CsvTable& table, int row, const std::string& column)
+std::optional<double> finite(const CsvTable::Row& row, const std::string& column)
 {
-    const auto value = table.number_or_nothing(row, column);
+    const auto value = row.number_or_nothing(column);
     return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+CsvTable with_finite(const CsvTable& table, const std::string& column)
+{
+    return table.where([&](const CsvTable::Row& row) { return finite(row, column).has_value(); });
+}
+
+std::vector<long long> inverted_tets(const CsvTable& frames)
+{
+    return frames.map([](const CsvTable::Row& row) { return row.integer("inverted_tets"); });
 }
 
 nlohmann::json volume_facts(const CsvTable& metrics)
 {
     nlohmann::json facts;
-    for (int row = 0; row < metrics.rows(); ++row) {
-        const auto change_pct = finite(metrics, row, "volume_change_pct");
-        if (!change_pct) continue;
-        const auto inverted = metrics.integer(row, "inverted_tets");
-        nlohmann::json& deformer = facts[metrics.text_at(row, "deformer")];
-        if (deformer.is_null())
-            deformer = {{"lowest_pct", *change_pct}, {"highest_pct", *change_pct}, {"most_inverted_tets", inverted}};
-        deformer["lowest_pct"] = std::min(deformer["lowest_pct"].get<double>(), *change_pct);
-        deformer["highest_pct"] = std::max(deformer["highest_pct"].get<double>(), *change_pct);
-        deformer["most_inverted_tets"] = std::max(deformer["most_inverted_tets"].get<long long>(), inverted);
+    for (const CsvTable& frames : with_finite(metrics, "volume_change_pct").groups({"deformer"})) {
+        const auto [lowest_pct, highest_pct] = std::ranges::minmax(frames.numbers("volume_change_pct"));
+        facts[frames[0].text("deformer")] = {{"lowest_pct", lowest_pct},
+                                             {"highest_pct", highest_pct},
+                                             {"most_inverted_tets", std::ranges::max(inverted_tets(frames))}};
     }
     return facts;
 }
 
 nlohmann::json frame_ms(const CsvTable& metrics)
 {
-    std::map<std::string, std::vector<double>> times;
-    for (int row = 0; row < metrics.rows(); ++row)
-        times[metrics.text_at(row, "deformer")].push_back(metrics.number(row, "step_ms"));
     nlohmann::json facts;
-    for (const auto& [deformer, ms] : times) facts[deformer] = analysis::median(ms);
+    for (const CsvTable& frames : metrics.groups({"deformer"}))
+        facts[frames[0].text("deformer")] = analysis::median(frames.numbers("step_ms"));
     return facts;
 }
 
@@ -64,17 +67,12 @@ nlohmann::json error_bar_facts(const CsvTable& metrics, const pbs::JsonFile& run
 {
     constexpr const char* bound = "reference_error_joint_pct";
     if (!metrics.has_column(bound)) return nullptr;
-    std::vector<double> bounds_pct;
-    int frames = 0;
-    for (int row = 0; row < metrics.rows(); ++row) {
-        if (metrics.text_at(row, "deformer") != reference_name) continue;
-        ++frames;
-        if (const auto bound_pct = finite(metrics, row, bound)) bounds_pct.push_back(*bound_pct);
-    }
+    const CsvTable frames = metrics.where("deformer", reference_name);
+    const std::vector<double> bounds_pct = with_finite(frames, bound).numbers(bound);
     const nlohmann::json& seconds = run.at(run.at("cost"), "seconds");
     const double total_s = seconds.value("error_bar", 0.0) + seconds.value("error_bar_set_up", 0.0);
     nlohmann::json facts = {
-        {"frames", bounds_pct.size()}, {"of", frames}, {"seconds", total_s}, {"largest_pct", nullptr}};
+        {"frames", bounds_pct.size()}, {"of", frames.rows()}, {"seconds", total_s}, {"largest_pct", nullptr}};
     if (!bounds_pct.empty()) facts["largest_pct"] = std::ranges::max(bounds_pct);
     return facts;
 }
@@ -83,27 +81,22 @@ nlohmann::json error_bar_facts(const CsvTable& metrics, const pbs::JsonFile& run
 bool deforms(const CsvTable& metrics)
 {
     if (!metrics.has_column("volume_abs_change_pct")) return true;
-    for (int row = 0; row < metrics.rows(); ++row)
-        if (finite(metrics, row, "volume_abs_change_pct").value_or(least_visible_pct) >= least_visible_pct) return true;
-    return false;
+    return std::ranges::any_of(metrics, [](const CsvTable::Row& row) {
+        return finite(row, "volume_abs_change_pct").value_or(least_visible_pct) >= least_visible_pct;
+    });
 }
 
-// By frame and deformer, in frames in which somebody has a visible error.
-using FrameErrors = std::map<long long, std::map<std::string, double>>;
-
-FrameErrors errors_of(const CsvTable& metrics, const std::string& column)
+// The rows with an error, by frame: those of frames in which somebody has a visible error.
+std::vector<CsvTable> frames_with_errors(const CsvTable& metrics, const std::string& column)
 {
-    FrameErrors errors;
-    if (!metrics.has_column(column)) return errors;
-    for (int row = 0; row < metrics.rows(); ++row)
-        if (const auto error = finite(metrics, row, column))
-            if (const std::string& deformer = metrics.text_at(row, "deformer"); deformer != reference_name)
-                errors[metrics.integer(row, "frame")][deformer] = *error;
-    std::erase_if(errors, [](const auto& frame) {
-        return std::ranges::all_of(frame.second,
-                                   [](const auto& deformer) { return deformer.second < least_visible_pct; });
+    if (!metrics.has_column(column)) return {};
+    const CsvTable errors = with_finite(metrics, column).where([](const CsvTable::Row& row) {
+        return row.text("deformer") != reference_name;
     });
-    return errors;
+    std::vector<CsvTable> frames = errors.groups({"frame"});
+    std::erase_if(frames,
+                  [&](const CsvTable& frame) { return std::ranges::max(frame.numbers(column)) < least_visible_pct; });
+    return frames;
 }
 
 // A method turns too much inside out if its inverted tets exceed those of lbs by more than this share of the tets in
@@ -113,57 +106,50 @@ constexpr double most_inverted_share = 0.005, most_inverted_frames = 0.1;
 // Of each method the most inverted tets in a frame, and whether it is excluded for them.
 nlohmann::json inverting_methods(const CsvTable& metrics, long long tets)
 {
-    std::map<long long, long long> of_lbs;
-    for (int row = 0; row < metrics.rows(); ++row)
-        if (metrics.text_at(row, "deformer") == "lbs")
-            of_lbs[metrics.integer(row, "frame")] = metrics.integer(row, "inverted_tets");
-    struct Inverted {
-        long long most = 0;
-        int frames = 0, beyond = 0;
-    };
-    std::map<std::string, Inverted> methods;
-    for (int row = 0; row < metrics.rows(); ++row) {
-        const auto lbs = of_lbs.find(metrics.integer(row, "frame"));
-        const auto inverted = metrics.integer(row, "inverted_tets");
-        if (metrics.text_at(row, "deformer") == reference_name || lbs == of_lbs.end()) continue;
-        Inverted& method = methods[metrics.text_at(row, "deformer")];
-        method.most = std::max(method.most, inverted);
-        ++method.frames;
-        method.beyond += static_cast<double>(inverted - lbs->second) > most_inverted_share * static_cast<double>(tets);
-    }
+    const auto lbs = metrics.where("deformer", "lbs").by("frame");
+    const CsvTable compared = metrics.where([&](const CsvTable::Row& row) {
+        return row.text("deformer") != reference_name && lbs.contains(row.text("frame"));
+    });
     nlohmann::json facts = nlohmann::json::object();
-    for (const auto& [name, method] : methods)
-        if (method.most > 0)
-            facts[name] = {{"most_inverted_tets", method.most},
-                           {"share_of_tets_pct", 100.0 * static_cast<double>(method.most) / static_cast<double>(tets)},
-                           {"is_excluded", method.beyond > most_inverted_frames * method.frames}};
+    for (const CsvTable& frames : compared.groups({"deformer"})) {
+        const long long most = std::ranges::max(inverted_tets(frames));
+        const auto beyond = std::ranges::count_if(frames, [&](const CsvTable::Row& row) {
+            const long long more = row.integer("inverted_tets") - lbs.at(row.text("frame")).integer("inverted_tets");
+            return static_cast<double>(more) > most_inverted_share * static_cast<double>(tets);
+        });
+        if (most > 0)
+            facts[frames[0].text("deformer")] = {
+                {"most_inverted_tets", most},
+                {"share_of_tets_pct", 100.0 * static_cast<double>(most) / static_cast<double>(tets)},
+                {"is_excluded", static_cast<double>(beyond) > most_inverted_frames * frames.rows()}};
+    }
     return facts;
 }
 
 // The methods that are not excluded, the least median error first, with the frames in which each of them is nearest. A
 // method that fails in the hard frames would look best by the others: only frames in which all have an error count.
-nlohmann::json ranking(const FrameErrors& errors, const nlohmann::json& inverting)
+nlohmann::json ranking(const std::vector<CsvTable>& errors, const std::string& column, const nlohmann::json& inverting)
 {
-    const auto most = std::ranges::max_element(errors, {}, [](const auto& frame) { return frame.second.size(); });
-    std::map<std::string, std::vector<double>> own;
+    const int most = std::ranges::max(errors, {}, &CsvTable::rows).rows();
+    CsvTable compared{{}};
     std::map<std::string, int> nearest_in;
     int frames = 0;
-    for (const auto& [frame, errors_of_frame] : errors) {
-        if (errors_of_frame.size() < most->second.size()) continue;
-        std::map<double, std::string> compared;
-        for (const auto& [deformer, error] : errors_of_frame) {
-            const auto inverted = inverting.find(deformer);
-            if (inverted != inverting.end() && inverted->at("is_excluded").get<bool>()) continue;
-            own[deformer].push_back(error);
-            compared.emplace(error, deformer);
-        }
-        if (compared.empty()) continue;
+    for (const CsvTable& frame : errors) {
+        const CsvTable ranked = frame.where([&](const CsvTable::Row& row) {
+            const auto inverted = inverting.find(row.text("deformer"));
+            return inverted == inverting.end() || !inverted->at("is_excluded").get<bool>();
+        });
+        if (frame.rows() < most || ranked.rows() == 0) continue;
         ++frames;
-        ++nearest_in[compared.begin()->second];
+        ++nearest_in[std::ranges::min(ranked.map([&](const CsvTable::Row& row) {
+                         return std::pair(row.number(column), row.text("deformer"));
+                     })).second];
+        compared.append(ranked);
     }
     std::vector<std::pair<double, std::string>> sorted;
-    for (const auto& [deformer, errors_of_method] : own)
-        sorted.emplace_back(analysis::median(errors_of_method), deformer);
+    if (frames > 0)
+        for (const CsvTable& method : compared.groups({"deformer"}))
+            sorted.emplace_back(analysis::median(method.numbers(column)), method[0].text("deformer"));
     std::ranges::sort(sorted);
     nlohmann::json methods = nlohmann::json::array();
     for (const auto& [median_pct, deformer] : sorted)
@@ -175,11 +161,13 @@ nlohmann::json ranking(const FrameErrors& errors, const nlohmann::json& invertin
 // where all are excluded.
 nlohmann::json nearest_facts(const CsvTable& metrics, const nlohmann::json& inverting)
 {
-    const FrameErrors at_joints = errors_of(metrics, "error_joint_pct"), over_body = errors_of(metrics, "error_l2_pct");
-    if (at_joints.empty() && over_body.empty()) return nullptr;
-    nlohmann::json nearest = ranking(at_joints.empty() ? over_body : at_joints, inverting);
-    nearest["place"] = at_joints.empty() ? "body" : "joints";
-    return nearest;
+    for (const auto& [place, column] : {std::pair("joints", "error_joint_pct"), {"body", "error_l2_pct"}})
+        if (const auto errors = frames_with_errors(metrics, column); !errors.empty()) {
+            nlohmann::json nearest = ranking(errors, column, inverting);
+            nearest["place"] = place;
+            return nearest;
+        }
+    return nullptr;
 }
 
 // Why the reference may be another pose than the motion's, so that no method is called nearest: far_from_all or lag;
@@ -199,24 +187,21 @@ nlohmann::json doubt_of_reference(const nlohmann::json& nearest, const nlohmann:
 nlohmann::json skin_facts(const CsvTable& metrics)
 {
     if (!metrics.has_column("skin_rms_mm")) return nullptr;
-    struct Distances {
-        double mm = 0.0, pct = 0.0;
+    const CsvTable measured = with_finite(with_finite(metrics, "skin_rms_mm"), "skin_rms_pct");
+    const auto in_frames_of = [&](const char* deformer, const char* other) {
+        const auto frames = measured.where("deformer", other).by("frame");
+        return measured.where([&](const CsvTable::Row& row) {
+            return row.text("deformer") == deformer && frames.contains(row.text("frame"));
+        });
     };
-    std::map<long long, std::map<std::string, Distances>> frames;
-    for (int row = 0; row < metrics.rows(); ++row) {
-        const auto mm = finite(metrics, row, "skin_rms_mm"), pct = finite(metrics, row, "skin_rms_pct");
-        if (mm && pct) frames[metrics.integer(row, "frame")][metrics.text_at(row, "deformer")] = {*mm, *pct};
-    }
-    std::erase_if(frames,
-                  [](const auto& frame) { return frame.second.count("lbs") == 0 || frame.second.count("pbs") == 0; });
-    const auto rms = [&](const char* deformer, double Distances::*distance) {
+    const auto rms = [](const CsvTable& frames, const char* column) {
         double squares = 0.0;
-        for (const auto& [frame, distances] : frames)
-            squares += distances.at(deformer).*distance * (distances.at(deformer).*distance);
-        return std::sqrt(squares / static_cast<double>(frames.size()));
+        for (const double distance : frames.numbers(column)) squares += distance * distance;
+        return std::sqrt(squares / frames.rows());
     };
-    if (frames.empty() || rms("lbs", &Distances::pct) < least_visible_pct) return nullptr;
-    const double lbs_mm = rms("lbs", &Distances::mm), pbs_mm = rms("pbs", &Distances::mm);
+    const CsvTable lbs = in_frames_of("lbs", "pbs"), pbs = in_frames_of("pbs", "lbs");
+    if (lbs.rows() == 0 || rms(lbs, "skin_rms_pct") < least_visible_pct) return nullptr;
+    const double lbs_mm = rms(lbs, "skin_rms_mm"), pbs_mm = rms(pbs, "skin_rms_mm");
     return {{"lbs_mm", lbs_mm}, {"pbs_mm", pbs_mm}, {"removed_pct", analysis::removed_share_pct(lbs_mm, pbs_mm)}};
 }
 
@@ -225,54 +210,46 @@ nlohmann::json widest_frame(const CsvTable& distances)
 {
     double widest_mm = 0.0;
     nlohmann::json frame;
-    for (int row = 0; row < distances.rows(); ++row)
-        if (const double mm = finite(distances, row, "rms_mm").value_or(0.0);
-            mm > widest_mm && distances.text_at(row, "deformer") == "pbs" && distances.text_at(row, "other") == "lbs")
-            widest_mm = mm, frame = distances.integer(row, "frame");
+    for (const CsvTable::Row& row : distances.where({{"deformer", "pbs"}, {"other", "lbs"}}))
+        if (const double mm = finite(row, "rms_mm").value_or(0.0); mm > widest_mm)
+            widest_mm = mm, frame = row.integer("frame");
     return frame;
 }
-
-struct JointChange {
-    std::string name;
-    double share_pct = 0.0;                    // of the body's volume
-    std::map<std::string, double> change_pct;  // of the body's volume, by deformer
-};
 
 // The two joints, of a bone and its parent, at which lbs loses most of the body's volume.
 nlohmann::json joint_facts(const CsvTable& regions, const CsvTable& bones)
 {
-    std::map<std::string, std::string> parent;
-    for (int row = 0; row < bones.rows(); ++row) parent[bones.text_at(row, "bone")] = bones.text_at(row, "parent");
-    std::map<std::string, JointChange> joints;
-    for (int row = 0; row < regions.rows(); ++row) {
-        if (regions.text_at(row, "kind") != "joint") continue;
-        const std::string &bone = regions.text_at(row, "bone"), &second = regions.text_at(row, "second_bone");
-        // their flesh meets, but no joint connects them
-        if (parent[second] != bone && parent[bone] != second) continue;
-        const std::string name = bone + " - " + second;
-        JointChange& joint = joints[name];
-        joint.name = name;
-        joint.share_pct = regions.number(row, "rest_share_pct");
-        joint.change_pct[regions.text_at(row, "deformer")] = regions.number(row, "change_pct");
+    const auto bone = bones.by("bone");
+    const auto is_child = [&](const std::string& child, const std::string& parent) {
+        return bone.contains(child) && bone.at(child).text("parent") == parent;
+    };
+    struct JointChange {
+        double lbs_pct, pbs_pct, share_pct;  // of the body's volume
+        std::string name;
+        auto operator<=>(const JointChange&) const = default;
+    };
+    std::vector<JointChange> joints;
+    for (const CsvTable& joint : regions.where("kind", "joint").groups({"bone", "second_bone"})) {
+        const std::string &first = joint[0].text("bone"), &second = joint[0].text("second_bone");
+        // otherwise their flesh meets, but no joint connects them
+        if (!is_child(first, second) && !is_child(second, first)) continue;
+        const auto lbs = joint.find({{"deformer", "lbs"}}), pbs = joint.find({{"deformer", "pbs"}});
+        if (lbs && pbs)
+            joints.push_back({lbs->number("change_pct"), pbs->number("change_pct"), lbs->number("rest_share_pct"),
+                              first + " - " + second});
     }
-    std::vector<JointChange> sorted;
-    for (const auto& [name, joint] : joints)
-        if (joint.change_pct.count("lbs") > 0 && joint.change_pct.count("pbs") > 0) sorted.push_back(joint);
-    std::ranges::sort(sorted, {}, [](const JointChange& joint) { return joint.change_pct.at("lbs"); });
-    sorted.resize(std::min<std::size_t>(sorted.size(), 2));
-    if (sorted.empty()) return nullptr;
-    nlohmann::json facts = {{"names", nlohmann::json::array()}};
+    std::ranges::sort(joints);
+    joints.resize(std::min<std::size_t>(joints.size(), 2));
+    nlohmann::json names = nlohmann::json::array();
     double share_pct = 0.0, lbs_pct = 0.0, pbs_pct = 0.0;
-    for (const JointChange& joint : sorted) {
-        facts["names"].push_back(joint.name);
+    for (const JointChange& joint : joints) {
+        names.push_back(joint.name);
         share_pct += joint.share_pct;
-        lbs_pct += joint.change_pct.at("lbs");
-        pbs_pct += joint.change_pct.at("pbs");
+        lbs_pct += joint.lbs_pct;
+        pbs_pct += joint.pbs_pct;
     }
     if (!(share_pct > 0.0)) return nullptr;
-    facts["lbs_pct"] = 100.0 * lbs_pct / share_pct;
-    facts["pbs_pct"] = 100.0 * pbs_pct / share_pct;
-    return facts;
+    return {{"names", names}, {"lbs_pct", 100.0 * lbs_pct / share_pct}, {"pbs_pct", 100.0 * pbs_pct / share_pct}};
 }
 
 }  // namespace
