@@ -39,36 +39,39 @@ struct FrameValue {
 };
 
 struct Seen {
-    int frames = 0, outside = 0, last_frame = -1, first_outside = -1;
+    int frames = 0, outside = 0, first_outside = -1;
     FrameValue worst, least, largest;
 };
 
 Seen look_at(const CheckBound& bound, const CsvTable& metrics, const std::string& file)
 {
-    Seen seen;
-    bool has_deformer = false;
-    for (int row = 0; row < metrics.rows(); ++row) {
-        if (metrics.text_at(row, "deformer") != bound.deformer) continue;
-        has_deformer = true;
-        const int frame = static_cast<int>(metrics.integer(row, "frame"));
-        seen.last_frame = std::max(seen.last_frame, frame);
+    const CsvTable own = metrics.where("deformer", bound.deformer);
+    if (own.rows() == 0) refuse(bound, file, "deformer", bound.deformer, "expected one that the scene uses");
+    std::vector<FrameValue> values;
+    int last_frame = -1;
+    for (const CsvTable::Row& row : own) {
+        const int frame = row.value<int>("frame");
+        last_frame = std::max(last_frame, frame);
         if (!bound.frames.empty() && (frame < bound.frames[0] || frame > bound.frames[1])) continue;
-        const std::optional<double> value = metrics.number_or_nothing(row, bound.metric);
+        const std::optional<double> value = row.number_or_nothing(bound.metric);
         if (!value)
             refuse(bound, file, "metric", bound.metric,
                    fmt::format("{} has no such value in frame {}", bound.deformer, frame));
-        const bool outside = excess(bound, *value) > 0.0;
-        if (outside && seen.outside++ == 0) seen.first_outside = frame;
-        const bool is_first = seen.frames++ == 0;
-        if (is_first || excess(bound, *value) > excess(bound, seen.worst.value)) seen.worst = {frame, *value};
-        if (is_first || *value < seen.least.value) seen.least = {frame, *value};
-        if (is_first || *value > seen.largest.value) seen.largest = {frame, *value};
+        values.push_back({frame, *value});
     }
-    if (!has_deformer) refuse(bound, file, "deformer", bound.deformer, "expected one that the scene uses");
-    if (!bound.frames.empty() && bound.frames[1] > seen.last_frame)
+    if (!bound.frames.empty() && bound.frames[1] > last_frame)
         refuse(bound, file, "frames", fmt::format("[{}, {}]", bound.frames[0], bound.frames[1]),
-               fmt::format("expected at most {}, the last of the scene", seen.last_frame));
-    return seen;
+               fmt::format("expected at most {}, the last of the scene", last_frame));
+    if (values.empty()) return {};
+    const auto excess_of = [&](const FrameValue& value) { return excess(bound, value.value); };
+    const auto is_outside = [&](const FrameValue& value) { return excess_of(value) > 0.0; };
+    const auto first_outside = std::ranges::find_if(values, is_outside);
+    return {.frames = static_cast<int>(values.size()),
+            .outside = static_cast<int>(std::ranges::count_if(values, is_outside)),
+            .first_outside = first_outside == values.end() ? -1 : first_outside->frame,
+            .worst = *std::ranges::max_element(values, {}, excess_of),
+            .least = *std::ranges::min_element(values, {}, &FrameValue::value),
+            .largest = *std::ranges::max_element(values, {}, &FrameValue::value)};
 }
 
 bool holds_between(const CheckBound& bound, const Seen& seen)
@@ -97,21 +100,18 @@ std::vector<std::string> columns_of(const CheckRules& rules)
     return columns;
 }
 
-using Rows = std::map<std::string, std::map<int, int>>;  // deformer -> frame -> row
-
-Rows rows_of(const CsvTable& table, const std::string& scene)
+// The frames of each deformer in a scene.
+std::map<std::string, CsvTable> frames_of(const CsvTable& table, const std::string& scene)
 {
-    Rows rows;
-    for (int row = 0; row < table.rows(); ++row)
-        if (table.text_at(row, "scene") == scene)
-            rows[table.text_at(row, "deformer")][static_cast<int>(table.integer(row, "frame"))] = row;
-    return rows;
+    std::map<std::string, CsvTable> frames;
+    for (const CsvTable& of_deformer : table.where("scene", scene).groups({"deformer"}))
+        frames.emplace(of_deformer[0].text("deformer"), of_deformer);
+    return frames;
 }
 
-// The line of a row, below the header. No field of a baseline contains a line break.
-int line_of(int row)
+CsvTable frames_of(const CsvTable& table, const std::string& scene, const std::string& deformer)
 {
-    return row + 2;
+    return table.where({{"scene", scene}, {"deformer", deformer}});
 }
 
 void require_columns(const CheckRules& rules, const CsvTable& baseline, const std::string& file)
@@ -120,20 +120,6 @@ void require_columns(const CheckRules& rules, const CsvTable& baseline, const st
         if (!baseline.has_column(column))
             throw pbs::InputError(file, 1, "column", column,
                                   "missing: expected a file of `pbskin check --write-baseline`");
-}
-
-void require_each_frame_once(const CsvTable& baseline, const std::string& file)
-{
-    std::map<std::tuple<std::string, std::string, long long>, int> lines;
-    for (int row = 0; row < baseline.rows(); ++row) {
-        const long long frame = baseline.integer(row, "frame");
-        const auto [at, is_new] = lines.emplace(
-            std::tuple(baseline.text_at(row, "scene"), baseline.text_at(row, "deformer"), frame), line_of(row));
-        if (!is_new)
-            throw pbs::InputError(
-                file, line_of(row), "frame", std::to_string(frame),
-                fmt::format("expected each frame of a scene's deformer once: it is in line {} too", at->second));
-    }
 }
 
 // The difference in a frame, and how many times its tolerance that is; none if nothing has changed.
@@ -163,46 +149,39 @@ std::vector<CheckTolerance> all_tolerances(const CheckRules& rules)
 }
 
 CheckCase compare_deformer(const CheckRules& rules, const std::string& scene, const std::string& deformer,
-                           const CsvTable& now, const std::map<int, int>& now_rows, const CsvTable& baseline,
-                           const std::map<int, int>& baseline_rows)
+                           const CsvTable& now, const CsvTable& baseline)
 {
     CheckCase check{scene, "baseline of " + deformer, CheckState::held, "", std::nullopt, std::nullopt, "", 0};
+    const std::map<std::string, CsvTable::Row> baseline_frames = baseline.by("frame");
     Difference worst;
-    int differing = 0;
-    for (const auto& [frame, row] : now_rows) {
-        const auto before = baseline_rows.find(frame);
-        if (before == baseline_rows.end()) continue;
+    int differing = 0, shared = 0;
+    for (const CsvTable::Row& row : now) {
+        const auto before = baseline_frames.find(row.text("frame"));
+        if (before == baseline_frames.end()) continue;
+        ++shared;
         Difference of_frame;
         for (const CheckTolerance& tolerance : all_tolerances(rules)) {
-            const Difference difference = difference_of(tolerance, now.number_or_nothing(row, tolerance.metric),
-                                                        baseline.number_or_nothing(before->second, tolerance.metric));
+            const Difference difference = difference_of(tolerance, row.number_or_nothing(tolerance.metric),
+                                                        before->second.number_or_nothing(tolerance.metric));
             if (difference.times > of_frame.times) of_frame = difference;
         }
         differing += of_frame.times > 0.0;
         if (of_frame.times > worst.times) {
             worst = of_frame;
-            check.frame = frame;
+            check.frame = row.value<int>("frame");
         }
     }
-    const auto same_frame = [](const auto& a, const auto& b) { return a.first == b.first; };
+    check.state = CheckState::failed;
     if (differing > 0) {
-        check.state = CheckState::failed;
         check.message =
-            fmt::format("frame {}: {} ({} of {} frames differ)", *check.frame, worst.text, differing, now_rows.size());
-    } else if (!std::equal(now_rows.begin(), now_rows.end(), baseline_rows.begin(), baseline_rows.end(), same_frame)) {
-        check.state = CheckState::failed;
-        check.message = fmt::format("{} frames, the baseline has {}", now_rows.size(), baseline_rows.size());
+            fmt::format("frame {}: {} ({} of {} frames differ)", *check.frame, worst.text, differing, now.rows());
+    } else if (shared < now.rows() || shared < baseline.rows()) {
+        check.message = fmt::format("{} frames, the baseline has {}", now.rows(), baseline.rows());
     } else {
-        check.message = fmt::format("{} frames as before", now_rows.size());
+        check.state = CheckState::held;
+        check.message = fmt::format("{} frames as before", now.rows());
     }
     return check;
-}
-
-double median_step_ms(const CsvTable& table, const std::map<int, int>& rows)
-{
-    std::vector<double> steps;
-    for (const auto& [frame, row] : rows) steps.push_back(table.number(row, "step_ms"));
-    return median(steps);
 }
 
 }  // namespace
@@ -231,24 +210,22 @@ CsvTable baseline_columns(const CheckRules& rules)
 
 void add_baseline_rows(CsvTable& baseline, const std::string& scene, const CsvTable& metrics, int vertices, int tets)
 {
-    for (int row = 0; row < metrics.rows(); ++row) {
-        const auto cell = [&](const std::string& column) -> CsvTable::Cell {
-            if (column == "scene") return scene;
-            if (column == "vertices") return vertices;
-            if (column == "tets") return tets;
-            return metrics.has_column(column) ? CsvTable::Cell(metrics.text_at(row, column))
-                                              : CsvTable::Cell(std::nullopt);
-        };
-        std::vector<CsvTable::Cell> cells;
-        for (const std::string& column : baseline.columns()) cells.push_back(cell(column));
-        baseline.add_row(cells);
+    for (const CsvTable::Row& row : metrics) {
+        CsvTable::NamedCells cells;
+        for (const std::string& column : baseline.columns())
+            if (metrics.has_column(column)) cells.emplace_back(column, row.text(column));
+        cells.insert(cells.end(), {{"scene", scene}, {"vertices", vertices}, {"tets", tets}});
+        baseline.add(cells);
     }
 }
 
 void require_baseline(const CheckRules& rules, const CsvTable& baseline, const std::string& baseline_file)
 {
     require_columns(rules, baseline, baseline_file);
-    require_each_frame_once(baseline, baseline_file);
+    for (const CsvTable& frames : baseline.groups({"scene", "deformer"})) {
+        for (const CsvTable::Row& row : frames) row.integer("frame");
+        frames.by("frame");  // each once
+    }
 }
 
 std::vector<CheckCase> scenes_gone(const CheckRules& rules, const CsvTable& baseline, const std::string& baseline_file)
@@ -256,27 +233,23 @@ std::vector<CheckCase> scenes_gone(const CheckRules& rules, const CsvTable& base
     std::vector<CheckCase> cases;
     std::set<std::string> known;
     for (const CheckScene& scene : rules.scenes) known.insert(scene.name);
-    for (int row = 0; row < baseline.rows(); ++row)
-        if (const std::string& scene = baseline.text_at(row, "scene"); known.insert(scene).second)
+    for (const CsvTable& frames : baseline.groups({"scene"}))
+        if (const std::string& scene = frames[0].text("scene"); !known.contains(scene))
             cases.push_back({scene, "baseline", CheckState::failed, "in the baseline, but no longer among the scenes",
-                             std::nullopt, std::nullopt, baseline_file, line_of(row)});
+                             std::nullopt, std::nullopt, baseline_file, frames[0].line()});
     return cases;
 }
 
 std::vector<CheckCase> compare_with_baseline(const CheckRules& rules, const std::string& scene, const CsvTable& now,
                                              const CsvTable& baseline, const std::string& baseline_file)
 {
-    const Rows now_rows = rows_of(now, scene), baseline_rows = rows_of(baseline, scene);
     std::vector<CheckCase> cases;
-    for (const auto& [deformer, rows] : now_rows) {
-        const auto before = baseline_rows.find(deformer);
-        const std::map<int, int> none;
-        cases.push_back(compare_deformer(rules, scene, deformer, now, rows, baseline,
-                                         before == baseline_rows.end() ? none : before->second));
+    for (const auto& [deformer, frames] : frames_of(now, scene)) {
+        cases.push_back(compare_deformer(rules, scene, deformer, frames, frames_of(baseline, scene, deformer)));
         cases.back().file = baseline_file;
     }
-    for (const auto& [deformer, rows] : baseline_rows)
-        if (!now_rows.contains(deformer))
+    for (const auto& [deformer, frames] : frames_of(baseline, scene))
+        if (frames_of(now, scene, deformer).rows() == 0)
             cases.push_back({scene, "baseline of " + deformer, CheckState::failed,
                              "in the baseline, but no longer in the scene", std::nullopt, std::nullopt, baseline_file,
                              0});
@@ -287,15 +260,14 @@ std::vector<std::pair<std::string, std::string>> step_times(const std::string& s
                                                             const CsvTable* baseline)
 {
     std::vector<std::pair<std::string, std::string>> times;
-    const Rows before = baseline ? rows_of(*baseline, scene) : Rows();
-    for (const auto& [deformer, rows] : rows_of(now, scene)) {
-        const double ms = median_step_ms(now, rows);
-        const auto found = before.find(deformer);
-        times.emplace_back("wall time of " + deformer,
-                           fmt::format("{:.4g} ms per step", ms) +
-                               (found == before.end() ? ""
-                                                      : fmt::format(", {:.3g} of the baseline's",
-                                                                    ms / median_step_ms(*baseline, found->second))));
+    for (const auto& [deformer, frames] : frames_of(now, scene)) {
+        const double ms = median(frames.numbers("step_ms"));
+        const std::vector<double> before_ms =
+            baseline ? frames_of(*baseline, scene, deformer).numbers("step_ms") : std::vector<double>{};
+        times.emplace_back(
+            "wall time of " + deformer,
+            fmt::format("{:.4g} ms per step", ms) +
+                (before_ms.empty() ? "" : fmt::format(", {:.3g} of the baseline's", ms / median(before_ms))));
     }
     return times;
 }

@@ -150,8 +150,7 @@ class Check(foreign_arm.ArmTest):
         for text, message in (("", "the file is empty"),
                               ("a,b\n1,2\n", "missing: expected a file of `pbskin check --write-baseline`"),
                               (kept[:-20], "cut off"), (kept.replace("arm,pbs,3,", "arm,pbs,three,"), "three"),
-                              (kept + kept.splitlines()[1] + "\n", "expected each frame of a scene's deformer once: "
-                                                                   "it is in line 2 too")):
+                              (kept + kept.splitlines()[1] + "\n", "expected it once: line 2 has it too")):
             self.write("baseline.csv", text)
             process = self.check(2, "--baseline", self.baseline)
             self.assertRegex(process.stderr, r"pbskin: \S*baseline\.csv.*" + re.escape(message))

@@ -92,7 +92,7 @@ TEST(CheckBaseline, AFrameTwiceIsRefusedWithItsLine)
     const std::string text = table.text(), last = text.substr(text.rfind('\n', text.size() - 2) + 1);
     EXPECT_EQ(test_support::refusal_of(
                   [&] { require_baseline(rules(), parse_csv(text + last, "baseline.csv"), "baseline.csv"); }),
-              "baseline.csv:6: frame = 0: expected each frame of a scene's deformer once: it is in line 5 too");
+              "baseline.csv:6:3: frame = 0: expected it once: line 5 has it too");
 }
 
 std::vector<CheckSuite> suite_of(CheckState state)
