@@ -34,56 +34,16 @@ double resampled_mean(const std::vector<double>& series, std::size_t block, gsl_
     return sum / static_cast<double>(series.size());
 }
 
-const std::array<std::string, 6> settings = {"scene", "deformer", "variant", "order", "precision", "iterations"};
+const std::vector<std::string> settings = {"scene", "deformer", "variant", "order", "precision", "iterations"};
 // each [%]
 const std::array<std::string, 4> quantities = {"volume_change", "volume_abs_change", "error_l2", "error_joint"};
 const std::array<std::pair<std::string, double>, 5> shares = {
     {{"least", 0.0}, {"p10", 0.1}, {"median", 0.5}, {"p90", 0.9}, {"most", 1.0}}};
 
-struct Group {
-    std::array<std::string, 6> setting;
-    std::vector<int> rows = {};
-    int frames = 0;
-    std::array<std::array<std::optional<double>, 5>, 4> statistics = {};  // by quantity and share
-};
-
-Columns<Group> all_columns()
+std::vector<double> finite_values(const CsvTable& frames, const std::string& column)
 {
-    Columns<Group> columns;
-    for (std::size_t i = 0; i < settings.size(); ++i)
-        columns.emplace_back(
-            settings[i], [i](auto& group) -> auto& { return group.setting[i]; });
-    columns.emplace_back("frames", &Group::frames);
-    for (std::size_t q = 0; q < quantities.size(); ++q)
-        for (std::size_t i = 0; i < shares.size(); ++i)
-            columns.emplace_back(
-                quantities[q] + "_" + shares[i].first + "_pct",
-                [ q, i ](auto& group) -> auto& { return group.statistics[q][i]; });
-    return columns;
-}
-
-// In order of first appearance.
-std::vector<Group> by_setting(const CsvTable& metrics)
-{
-    std::vector<Group> groups;
-    for (int row = 0; row < metrics.rows(); ++row) {
-        std::array<std::string, 6> setting;
-        for (std::size_t i = 0; i < settings.size(); ++i) setting[i] = metrics.text_at(row, settings[i]);
-        auto found =
-            std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.setting == setting; });
-        if (found == groups.end()) found = groups.insert(groups.end(), {setting});
-        found->rows.push_back(row);
-    }
-    return groups;
-}
-
-std::vector<double> values_of(const CsvTable& metrics, const std::vector<int>& rows, const std::string& column)
-{
-    std::vector<double> values;
-    if (!metrics.has_column(column)) return values;
-    for (const int row : rows)
-        if (const auto value = metrics.number_or_nothing(row, column); value && std::isfinite(*value))
-            values.push_back(*value);
+    std::vector<double> values = frames.has_column(column) ? frames.known_numbers(column) : std::vector<double>{};
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
     return values;
 }
 
@@ -240,17 +200,21 @@ double binomial_tail(int counted, int cases, double q)
 
 CsvTable frame_statistics(const CsvTable& metrics)
 {
-    static const Columns<Group> columns = all_columns();
-    std::vector<Group> groups = by_setting(metrics);
-    for (Group& group : groups) {
-        group.frames = static_cast<int>(group.rows.size());
-        for (std::size_t q = 0; q < quantities.size(); ++q) {
-            const std::vector<double> values = values_of(metrics, group.rows, quantities[q] + "_pct");
-            if (values.empty()) continue;
-            for (std::size_t i = 0; i < shares.size(); ++i) group.statistics[q][i] = quantile(values, shares[i].second);
-        }
+    std::vector<std::string> columns = settings;
+    columns.emplace_back("frames");
+    for (const std::string& quantity : quantities)
+        for (const auto& [name, share] : shares) columns.push_back(quantity + "_" + name + "_pct");
+    CsvTable statistics(columns, "frame_statistics.csv");
+    for (const CsvTable& frames : metrics.groups(settings)) {
+        CsvTable::NamedCells cells = {{"frames", frames.rows()}};
+        for (const std::string& setting : settings) cells.emplace_back(setting, frames[0].text(setting));
+        for (const std::string& quantity : quantities)
+            if (const std::vector<double> values = finite_values(frames, quantity + "_pct"); !values.empty())
+                for (const auto& [name, share] : shares)
+                    cells.emplace_back(quantity + "_" + name + "_pct", quantile(values, share));
+        statistics.add(cells);
     }
-    return table_of(columns, groups);
+    return statistics;
 }
 
 }  // namespace analysis
