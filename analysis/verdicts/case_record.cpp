@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <limits>
-#include <map>
-#include <tuple>
 
 namespace analysis {
 
@@ -142,49 +140,31 @@ CaseKey case_key(const nlohmann::json& object, const std::string& file)
 
 namespace {
 
-// The columns of metrics.csv that identify the case and the frame of a row, and those that are judged. The file has
-// further columns.
-struct MetricsRow {
-    std::string scene, deformer, variant, order, precision;
-    std::optional<int> iterations;
-    std::string threads, outcome;
-    double frame = 0.0, time_s = 0.0, volume_change_pct = 0.0, volume_abs_change_pct = 0.0, inverted_tets = 0.0;
-    std::optional<double> angle_deg;
-};
-
-const Columns<MetricsRow>& metrics_columns()
+CaseRecord record_of(const CsvTable& frames, const std::string& run)
 {
-    static const Columns<MetricsRow> columns =
-        MEMBER_COLUMNS(MetricsRow, scene, deformer, variant, order, precision, iterations, threads, frame, time_s,
-                       volume_change_pct, volume_abs_change_pct, inverted_tets) +
-        optional(MEMBER_COLUMNS(MetricsRow, angle_deg, outcome));
-    return columns;
-}
-
-auto case_of(const MetricsRow& row)
-{
-    return std::tie(row.scene, row.deformer, row.variant, row.order, row.precision, row.iterations, row.threads);
-}
-
-CaseRecord empty_record(const MetricsRow& row, const std::string& run)
-{
-    return {.scene = row.scene,
-            .deformer = row.deformer,
-            .variant = row.variant,
-            .order = row.order,
-            .precision = row.precision,
-            .iterations = row.iterations.value_or(0),
-            .run = run};
-}
-
-void add_frame(CaseRecord& record, const MetricsRow& row)
-{
-    record.frame.push_back(row.frame);
-    record.time_s.push_back(row.time_s);
-    record.volume_change_pct.push_back(row.volume_change_pct);
-    record.volume_abs_change_pct.push_back(row.volume_abs_change_pct);
-    record.inverted_tets.push_back(row.inverted_tets);
-    if (row.angle_deg) record.angle_deg.push_back(*row.angle_deg);
+    const CsvTable::Row& first = frames[0];
+    CaseRecord record{.scene = first.text("scene"),
+                      .deformer = first.text("deformer"),
+                      .variant = first.text("variant"),
+                      .order = first.text("order"),
+                      .precision = first.text("precision"),
+                      .iterations = first.value<std::optional<int>>("iterations").value_or(0),
+                      .run = run};
+    for (const CsvTable::Row& row : frames) {
+        if (record.iterations == 0 && frames.has_column("outcome") && row.text("outcome") == "not_converged") {
+            ++record.frames_not_converged;
+            continue;
+        }
+        record.frame.push_back(row.number("frame"));
+        record.time_s.push_back(row.number("time_s"));
+        record.volume_change_pct.push_back(row.number("volume_change_pct"));
+        record.volume_abs_change_pct.push_back(row.number("volume_abs_change_pct"));
+        record.inverted_tets.push_back(row.number("inverted_tets"));
+        if (frames.has_column("angle_deg"))
+            if (const auto angle_deg = row.number_or_nothing("angle_deg")) record.angle_deg.push_back(*angle_deg);
+    }
+    require_whole(record);
+    return record;
 }
 
 const Columns<PrintedValue>& printed_columns()
@@ -201,19 +181,10 @@ const Columns<PrintedValue>& printed_columns()
 
 std::vector<CaseRecord> case_records(const CsvTable& metrics, const std::string& run)
 {
-    const std::vector<MetricsRow> rows = rows_of(metrics_columns(), metrics);
     std::vector<CaseRecord> records;
-    std::map<decltype(case_of(rows.front())), std::size_t> places;
-    for (const MetricsRow& row : rows) {
-        const auto [place, is_new] = places.try_emplace(case_of(row), records.size());
-        if (is_new) records.push_back(empty_record(row, run));
-        CaseRecord& record = records[place->second];
-        if (record.iterations == 0 && row.outcome == "not_converged")
-            ++record.frames_not_converged;
-        else
-            add_frame(record, row);
-    }
-    for (const CaseRecord& record : records) require_whole(record);
+    for (const CsvTable& frames :
+         metrics.groups({"scene", "deformer", "variant", "order", "precision", "iterations", "threads"}))
+        records.push_back(record_of(frames, run));
     return records;
 }
 
