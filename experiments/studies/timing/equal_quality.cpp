@@ -124,6 +124,7 @@ void append(const EqualQualityCase& quality_case, const pbs::Character& characte
 
 using analysis::CaseKey;
 using analysis::Columns;
+using analysis::CsvTable;
 using analysis::within;
 
 struct Target {
@@ -203,14 +204,6 @@ const Columns<TargetRow> target_columns =
     within(&TargetRow::of, order_key_columns) +
     MEMBER_COLUMNS(TargetRow, sequence, target, bound, reached, iterations, ms, limit);
 
-const Columns<EqualAnswer> answer_columns = [] {
-    Columns<TargetRow> in_file_order = target_columns;
-    std::erase_if(in_file_order,
-                  [](const auto& column) { return column.name == "sequence" || column.name == "reached"; });
-    return within(&EqualAnswer::row, in_file_order) +
-           MEMBER_COLUMNS(EqualAnswer, speedup_to_plain, speedup_to_plain_spread);
-}();
-
 std::optional<int> first_within(const IterationPath& path, double Look::*value, double bound)
 {
     const auto found = std::ranges::find_if(path.looks, [&](const Look& look) { return look.*value <= bound; });
@@ -247,22 +240,29 @@ std::vector<TargetRow> target_rows(const CaseKey& key, const std::vector<Measure
     return rows;
 }
 
-std::vector<EqualAnswer> equal_answers(const std::vector<TargetRow>& rows)
+CsvTable equal_answers(const CsvTable& targets)
 {
-    const auto speedup = [&](const TargetRow& row, const std::string& sequence) -> std::optional<double> {
-        CaseKey of_plain = row.of;
-        of_plain.order = "plain";
-        const auto plain = std::ranges::find_if(rows, [&](const TargetRow& target_row) {
-            return target_row.of == of_plain && target_row.target == row.target && target_row.sequence == sequence;
-        });
-        if (plain == rows.end()) throw std::out_of_range("no rows of plain in the sequence " + sequence);
-        return plain->ms && row.ms && *row.ms > 0.0 ? std::optional(*plain->ms / *row.ms) : std::nullopt;
-    };
-    std::vector<EqualAnswer> equal_answers;
-    for (const TargetRow& row : rows)
-        if (row.sequence == file_sequence)
-            equal_answers.push_back({row, speedup(row, file_sequence), speedup(row, spread_sequence)});
-    return equal_answers;
+    const std::vector<std::string> kept = {"body",   "motion", "pose",       "angle_deg", "order", "precision",
+                                           "target", "bound",  "iterations", "ms",        "limit"};
+    std::vector<std::string> columns = kept;
+    columns.insert(columns.end(), {"speedup_to_plain", "speedup_to_plain_spread"});
+    CsvTable answers(columns, "answers.csv");
+    for (const CsvTable::Row& row : targets.where("sequence", file_sequence)) {
+        CsvTable::NamedCells of_plain = {{"order", "plain"}};
+        for (const char* column : {"body", "motion", "pose", "angle_deg", "precision", "target"})
+            of_plain.emplace_back(column, row.text(column));
+        const CsvTable plain = targets.where(of_plain);
+        std::vector<CsvTable::Cell> cells;
+        for (const std::string& column : kept) cells.emplace_back(row.text(column));
+        for (const std::string& sequence : {file_sequence, spread_sequence}) {
+            const auto baseline = plain.find({{"sequence", sequence}});
+            if (!baseline) row.refuse("sequence", "expected a row of plain in the sequence " + sequence);
+            const auto ms = row.number_or_nothing("ms"), plain_ms = baseline->number_or_nothing("ms");
+            cells.emplace_back(ms && plain_ms && *ms > 0.0 ? std::optional(*plain_ms / *ms) : std::nullopt);
+        }
+        answers.add_row(cells);
+    }
+    return answers;
 }
 
 std::string measure_equal_quality(const EqualQualityCase& quality_case, const std::string& folder)

@@ -274,23 +274,16 @@ analysis::Measurement author_frame_rate(const TimingRow& mesh, const pbs::Charac
     return rate;
 }
 
-const Columns<RealTimeEnd> real_time_columns =
-    MEMBER_COLUMNS(RealTimeEnd, variant, precision, vertices, is_beyond, exponent);
-
-std::vector<RealTimeEnd> real_time_ends(const std::vector<TimingRow>& rows)
+analysis::CsvTable real_time_ends(const analysis::CsvTable& timings)
 {
-    std::vector<RealTimeEnd> ends;
+    analysis::CsvTable ends({"variant", "precision", "vertices", "is_beyond", "exponent"}, "real_time.csv");
     for (const auto& [order, precision] :
          {std::pair("plain", "f64"), std::pair("plain", "f32"), std::pair("ordered", "f32")}) {
-        std::vector<double> vertices, total_ms;
-        for (const TimingRow& row : rows)
-            if (row.model.empty() && row.timing.variant == order && row.timing.precision == precision) {
-                vertices.push_back(row.vertices);
-                total_ms.push_back(row.timing.total_wall_ms.median);
-            }
-        if (vertices.size() < 2) continue;
-        const analysis::PowerLawEnd end = analysis::power_law_end(vertices, total_ms, 1e3 / 30.0);
-        ends.push_back({order, precision, end.size, end.beyond, end.exponent});
+        const analysis::CsvTable ladder = timings.where({{"model", ""}, {"variant", order}, {"precision", precision}});
+        if (ladder.rows() < 2) continue;
+        const analysis::PowerLawEnd end =
+            analysis::power_law_end(ladder.numbers("vertices"), ladder.numbers("total_wall_ms"), 1e3 / 30.0);
+        ends.add_row({order, precision, end.size, end.beyond, end.exponent});
     }
     return ends;
 }

@@ -96,23 +96,17 @@ StudyPlan plan(bool full)
     });
 }
 
-// Writes the rows of all runs, if there are any.
-template <typename Row>
-void sum_up(const FinishedRuns& finished, const std::string& file, const analysis::Columns<Row>& columns,
-            const std::vector<Row>& rows)
-{
-    if (!rows.empty()) finished.write(file, columns, rows);
-}
-
 bool conclude(const FinishedRuns& finished)
 {
-    if (const std::vector<TimingRow> frames = finished.rows(timing_columns, "timing.csv"); !frames.empty()) {
-        finished.write("timing.csv", timing_columns, frames);
-        finished.write("real_time.csv", real_time_columns, real_time_ends(frames));
-    }
+    const auto write = [&](const std::string& file, const analysis::CsvTable& table) {
+        if (table.rows() > 0) finished.write(file, table);
+    };
+    const analysis::CsvTable timings = finished.table(timing_columns.names(), "timing.csv");
+    write("timing.csv", timings);
+    if (timings.rows() > 0) finished.write("real_time.csv", real_time_ends(timings));
     for (const std::string& file : finished.files("bench.txt")) finished.write("bench.txt", analysis::read_text(file));
-    sum_up(finished, "features.csv", feature_columns, finished.rows(feature_columns, "features.csv"));
-    sum_up(finished, "answers.csv", answer_columns, equal_answers(finished.rows(target_columns, "targets.csv")));
+    write("features.csv", finished.table(feature_columns.names(), "features.csv"));
+    write("answers.csv", equal_answers(finished.table(target_columns.names(), "targets.csv")));
     return true;
 }
 

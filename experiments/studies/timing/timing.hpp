@@ -97,15 +97,8 @@ std::vector<analysis::Measurement> timing_conclusions(const std::vector<analysis
 analysis::Measurement author_frame_rate(const TimingRow& mesh, const pbs::Character& character,
                                         const pbs::Motion& motion, const Rounds& rounds);
 
-// real_time.csv: the size at which the ladder leaves real time.
-struct RealTimeEnd {
-    std::string variant, precision;
-    double vertices = 0.0;
-    bool is_beyond = false;
-    double exponent = 0.0;
-};
-extern const analysis::Columns<RealTimeEnd> real_time_columns;
-std::vector<RealTimeEnd> real_time_ends(const std::vector<TimingRow>& rows);
+// real_time.csv: the size at which the ladder leaves real time. timings: timing.csv.
+analysis::CsvTable real_time_ends(const analysis::CsvTable& timings);
 
 // The work of a run: writes timing.csv, and measurements.csv for a mesh made to Table 1.
 std::string measure_frames(const TimedCase& timed_case, const std::string& folder);
@@ -257,14 +250,8 @@ std::optional<int> first_within(const IterationPath& path, double Look::*value, 
 
 // answers.csv of the study, one row per case, order, precision and target in file order. A speed-up is the ratio of the
 // times to the target. There is none where either never reaches it.
-struct EqualAnswer {
-    TargetRow row;
-    std::optional<double> speedup_to_plain = {};         // plain in file order
-    std::optional<double> speedup_to_plain_spread = {};  // plain in the spread sequence
-};
-extern const analysis::Columns<EqualAnswer> answer_columns;
-// std::out_of_range without `plain` in both sequences.
-std::vector<EqualAnswer> equal_answers(const std::vector<TargetRow>& rows);
+// targets: targets.csv. InputError without `plain` in both sequences.
+analysis::CsvTable equal_answers(const analysis::CsvTable& targets);
 
 // The work of a run: writes orders.csv and targets.csv. Returns what broke down, or "".
 std::string measure_equal_quality(const EqualQualityCase& quality_case, const std::string& folder);

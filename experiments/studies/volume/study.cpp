@@ -21,12 +21,6 @@
 namespace experiments {
 namespace {
 
-// The change of a bone or joint of a body, from the regions.csv of a run.
-struct RegionOfRun {
-    std::string run;  // its name in reports
-    RegionChange region;
-};
-
 // PBS with other settings, as the tables [[added]] state them.
 std::vector<DeformerSpec> added_to(const StudyCase& study_case)
 {
@@ -62,15 +56,18 @@ StudyPlan plan(bool full)
 
 bool conclude(const FinishedRuns& finished)
 {
-    static const analysis::Columns<RegionOfRun> columns = analysis::Columns<RegionOfRun>{{"run", &RegionOfRun::run}} +
-                                                          analysis::within(&RegionOfRun::region, region_columns);
-    std::vector<RegionOfRun> regions;
+    std::vector<std::string> columns = region_columns.names();
+    columns.insert(columns.begin(), "run");
+    analysis::CsvTable regions(columns, "regions.csv");
     for (const std::string& file : finished.files("regions.csv")) {
         const std::string run = std::filesystem::path(file).parent_path().filename().string();
-        for (const RegionChange& region : rows_of(region_columns, analysis::read_csv(file)))
-            regions.push_back({run, region});
+        for (const analysis::CsvTable::Row& row : analysis::read_csv(file)) {
+            std::vector<analysis::CsvTable::Cell> cells = {run};
+            for (const auto& column : region_columns) cells.emplace_back(row.text(column.name));
+            regions.add_row(cells);
+        }
     }
-    finished.write("regions.csv", columns, regions);
+    finished.write("regions.csv", regions);
     return true;
 }
 

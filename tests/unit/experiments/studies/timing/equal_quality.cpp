@@ -2,6 +2,7 @@
 #include "experiments/studies/timing/timing.hpp"
 
 #include "analysis/statistics/statistics.hpp"
+#include "pbs/geometry/input_error.hpp"
 #include "pbs/geometry/tet_mesh.hpp"
 #include "pbs/geometry/topology.hpp"
 #include "tests/support/iteration_paths.hpp"
@@ -120,21 +121,21 @@ TargetRow target_row(const std::string& order, const std::string& sequence, std:
 // Where either never reaches the target, there is no speed-up.
 TEST(EqualAnswers, SpeedUpsAreRatiosOfTimesToTheTarget)
 {
-    const std::vector<EqualAnswer> all = equal_answers(
-        {target_row("plain", "file", 80.0), target_row("plain", "spread", 40.0), target_row("plain", "random_1", 60.0),
-         target_row("ordered", "file", 10.0), target_row("ordered", "random_1", 11.0)});
-    ASSERT_EQ(all.size(), 2u);
-    EXPECT_EQ(all[1].speedup_to_plain, 8.0);
-    EXPECT_EQ(all[1].speedup_to_plain_spread, 4.0);
-    const std::vector<EqualAnswer> unreached =
-        equal_answers({target_row("plain", "file", 80.0), target_row("plain", "spread", {}),
-                       target_row("ordered", "file", 10.0), target_row("poses", "file", {})});
-    ASSERT_EQ(unreached.size(), 3u);
-    EXPECT_EQ(unreached[1].speedup_to_plain, 8.0);
-    EXPECT_EQ(unreached[1].speedup_to_plain_spread, std::nullopt);
-    EXPECT_EQ(unreached[2].speedup_to_plain, std::nullopt);
-    EXPECT_THROW(equal_answers({target_row("plain", "file", 80.0)}), std::out_of_range)
-        << "there is no spread baseline";
+    const auto answers = [](const std::vector<TargetRow>& rows) {
+        return equal_answers(table_of(target_columns, rows));
+    };
+    const analysis::CsvTable all = answers({target_row("plain", "file", 80.0), target_row("plain", "spread", 40.0),
+                                            target_row("plain", "random_1", 60.0), target_row("ordered", "file", 10.0),
+                                            target_row("ordered", "random_1", 11.0)});
+    ASSERT_EQ(all.rows(), 2);
+    EXPECT_TRUE(all[1].has({{"order", "ordered"}, {"speedup_to_plain", 8.0}, {"speedup_to_plain_spread", 4.0}}));
+    const analysis::CsvTable unreached =
+        answers({target_row("plain", "file", 80.0), target_row("plain", "spread", {}),
+                 target_row("ordered", "file", 10.0), target_row("poses", "file", {})});
+    ASSERT_EQ(unreached.rows(), 3);
+    EXPECT_TRUE(unreached[1].has({{"speedup_to_plain", 8.0}, {"speedup_to_plain_spread", ""}}));
+    EXPECT_EQ(unreached.text_at(2, "speedup_to_plain"), "");
+    EXPECT_THROW(answers({target_row("plain", "file", 80.0)}), pbs::InputError) << "there is no spread baseline";
 }
 
 // The order `ordered` gives an answer that is no worse than the median of random orders. Reference: `plain` in the five

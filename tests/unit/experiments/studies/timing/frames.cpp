@@ -146,12 +146,13 @@ TEST(RealTime, EndsByWallTimeOfTheLadder)
     std::vector<TimingRow> rows = rows_of_mesh("", 1000, 1.0 / 3.0);
     rows.push_back(rows_of_mesh("", 10000, 10.0 / 3.0).front());
     rows.push_back(rows_of_mesh("Man", 1654, 9e9).front());
-    const std::vector<RealTimeEnd> ends = real_time_ends(rows);
-    ASSERT_EQ(ends.size(), 1u);
-    EXPECT_NEAR(ends[0].vertices, 1e5, 1e5 * test_support::rounding_error(20, 1.0));
-    EXPECT_NEAR(ends[0].exponent, 1.0, test_support::rounding_error(20, 1.0));
-    EXPECT_TRUE(ends[0].is_beyond);
-    EXPECT_TRUE(real_time_ends(rows_of_mesh()).empty()) << "a size of Table 1 is no step of the ladder";
+    const analysis::CsvTable ends = real_time_ends(table_of(timing_columns, rows));
+    ASSERT_EQ(ends.rows(), 1);
+    EXPECT_NEAR(ends.number(0, "vertices"), 1e5, 1e5 * test_support::rounding_error(20, 1.0));
+    EXPECT_NEAR(ends.number(0, "exponent"), 1.0, test_support::rounding_error(20, 1.0));
+    EXPECT_TRUE(ends[0].has({{"is_beyond", true}}));
+    EXPECT_EQ(real_time_ends(table_of(timing_columns, rows_of_mesh())).rows(), 0)
+        << "a size of Table 1 is no step of the ladder";
 }
 
 }  // namespace
