@@ -94,16 +94,10 @@ inline constexpr NameTable<Varied, 3> option_names<Varied>{
 // zone as the paper's solver runs it; a bar, or a zone whose surroundings are held, is "flesh held".
 std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessRow>& rows, Varied varied);
 
-// K = c x^exponent over all settings, in file order, by least squares: a row of exponents.csv.
-struct StiffnessExponent {
-    Varied varied = Varied::iterations;
-    analysis::CaseKey of;            // everything that is not varied
-    double first = 0.0, last = 0.0;  // of what is varied; time steps in ms
-    int points = 0, left_out = 0;    // left out: settings that did not converge, or hang upwards
-    double exponent = 0.0, low = 0.0, high = 0.0;
-};
-const analysis::Columns<StiffnessExponent>& exponent_columns();
-std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied);
+// exponents.csv: K = c x^exponent over all settings, in file order, by least squares. The fields of the key are
+// everything that is not varied; first and last are those of what is varied, time steps in ms; left_out counts settings
+// that did not converge or hang upwards.
+analysis::CsvTable stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied);
 
 // One run of the stiffness study: one body, and one thing that is varied.
 struct StiffnessSweep {

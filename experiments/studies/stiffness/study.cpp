@@ -16,16 +16,6 @@
 
 namespace experiments {
 
-const analysis::Columns<StiffnessExponent>& exponent_columns()
-{
-    using Row = StiffnessExponent;
-    static const analysis::Columns<Row> columns =
-        analysis::Columns<Row>{{"varied", &Row::varied}} + within(&Row::of, analysis::case_key_columns()) +
-        MEMBER_COLUMNS(Row, first, last, points, left_out, exponent) +
-        analysis::Columns<Row>{{"exponent_low", &Row::low}, {"exponent_high", &Row::high}};
-    return columns;
-}
-
 namespace {
 
 struct VariedText {
@@ -159,14 +149,14 @@ std::vector<StiffnessRow> rows_of_sweep(FinishedRuns finished, Varied varied)
 bool conclude(const FinishedRuns& finished)
 {
     std::vector<StiffnessRow> stiffness_rows;
-    std::vector<StiffnessExponent> exponents;
+    analysis::CsvTable exponents{{}};
     for (const auto& [varied, name] : OptionNames<Varied>::table) {
         const std::vector<StiffnessRow> swept = rows_of_sweep(finished, varied);
         std::ranges::copy(swept, std::back_inserter(stiffness_rows));
-        std::ranges::copy(stiffness_exponents(swept, varied), std::back_inserter(exponents));
+        exponents.append(stiffness_exponents(swept, varied));
     }
     finished.write("stiffness.csv", stiffness_columns, stiffness_rows);
-    finished.write("exponents.csv", used_columns(exponent_columns(), exponents), exponents);
+    finished.write("exponents.csv", exponents);
     return true;
 }
 
@@ -180,18 +170,26 @@ std::vector<analysis::Measurement> stiffness_ratios(const std::vector<StiffnessR
     return ratios;
 }
 
-std::vector<StiffnessExponent> stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied)
+analysis::CsvTable stiffness_exponents(const std::vector<StiffnessRow>& rows, Varied varied)
 {
+    analysis::CsvTable exponents(
+        {"varied", "body", "deformer", "vertices", "k_stretch", "young_pa", "iterations", "time_step_s", "load",
+         "ladder", "first", "last", "points", "left_out", "exponent", "exponent_low", "exponent_high"},
+        "exponents.csv");
     const auto shown = [varied](double x) { return varied == Varied::time_step ? 1e3 / x : x; };  // a time step [ms]
-    std::vector<StiffnessExponent> exponents;
     for (const auto& [key, measured] : cases_of(rows, varied)) {
         if (measured.series.empty() || measured.series.begin()->second.size() < 2) continue;
         std::vector<double> x, stiffness;
         for (const Point& point : measured.series.begin()->second)
             x.push_back(point.x), stiffness.push_back(point.stiffness);
         const analysis::Interval slope = analysis::observed_order(x, stiffness);
-        exponents.push_back({varied, key, shown(x.front()), shown(x.back()), slope.n, measured.left_out, slope.estimate,
-                             slope.low, slope.high});
+        analysis::CsvTable::NamedCells cells = {
+            {"varied", varied},          {"first", shown(x.front())},     {"last", shown(x.back())},
+            {"points", slope.n},         {"left_out", measured.left_out}, {"exponent", slope.estimate},
+            {"exponent_low", slope.low}, {"exponent_high", slope.high}};
+        for (const analysis::CaseKeyField& field : analysis::case_key_fields())
+            if (field.is_set(key)) cells.emplace_back(field.name, value_text(field, key));
+        exponents.add(cells);
     }
     return exponents;
 }
