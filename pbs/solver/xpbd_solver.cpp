@@ -332,8 +332,8 @@ BatchedConstraints<Scalar> make_batched_constraints(const XpbdConstraints& const
     return make_batched_constraints(stretch, volume, static_cast<int>(constraints.inverse_mass.size()), tets);
 }
 
-template BatchedConstraints<float> make_batched_constraints(const XpbdConstraints&, const Tets&, Order);
-template BatchedConstraints<double> make_batched_constraints(const XpbdConstraints&, const Tets&, Order);
+template BatchedConstraints<float> make_batched_constraints(const XpbdConstraints&, const Tets&);
+template BatchedConstraints<double> make_batched_constraints(const XpbdConstraints&, const Tets&);
 
 std::unique_ptr<XpbdProjection> make_xpbd_projection(const XpbdConstraints& constraints, const Tets& tets,
                                                      const XpbdOptions& options)
