@@ -176,7 +176,8 @@ Violations deformers_tested_by_name(const SourceTree& tree)
     const auto concerns = [](const std::string& path) {
         return (is_cpp(path) || path.ends_with(".py")) &&
                starts_with_any(path, {"experiments/", "analysis/", "paper_figures/"}) &&
-               !path.starts_with("experiments/deformers/");
+               !starts_with_any(path, {"experiments/deformers/", "experiments/meshes/", "experiments/rigs/",
+                                       "experiments/clips/", "experiments/characters/"});
     };
     return in_lines(tree, concerns, compares, "depends on the name of a deformer's kind: ask its traits or options",
                     {"kind"});

@@ -233,7 +233,7 @@ class Workflows(program.ProgramTest):
             options = re.findall(r"-D(\w+)=", build)
             self.assertTrue(options)
             for option in options:
-                self.assertIn(f"option({option} ", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"))
+                self.assertRegex((SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"), rf"\boption\({option}\s")
 
     def act(self, script, environment):
         return subprocess.run([*SHELL, script], cwd=self.folder, env=environment, capture_output=True, text=True,

@@ -69,7 +69,7 @@ TEST(PreparedSolver, AnotherMatrixOfTheSamePatternIsSolvedAfterRefactor)
         matrix.coeffs() *= 4.0;
         solver->refactor();
         EXPECT_LT((4.0 * solver->solve(Eigen::VectorXd::Ones(30)) - once).norm() / once.norm(),
-                  2.0 * solve_error(kind, matrix))
+                  2.0 * rounding_bound(spectrum_of(matrix)))
             << solver->name();
     }
 }

@@ -180,7 +180,7 @@ TEST(TableAsAValue, AnEmptyCellIsNoNumberAndNotLost)
     EXPECT_EQ(pbs.known_numbers("ms"), std::vector<double>{3.0});
     EXPECT_EQ(pbs[1].number_or_nothing("ms"), std::nullopt);
     EXPECT_EQ(pbs[1].value<std::optional<int>>("ms"), std::nullopt);
-    EXPECT_EQ(refusal_of([&] { pbs.numbers("ms"); }), "times.csv:4:3: expected a number");
+    EXPECT_EQ(refusal_of([&] { pbs.numbers("ms"); }), "times.csv:4:3: ms: expected a number");
 }
 
 TEST(TableAsAValue, WhatIsNotANumberIsRefusedWithTheLineInItsFile)

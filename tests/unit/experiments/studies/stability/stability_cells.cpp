@@ -29,7 +29,7 @@ std::vector<StabilityCell> swept(const std::string& list, const std::string& fac
         return cell.factor != factor || !cell.second_factor.empty() || cell.model != model ||
                precision_of(cell) != precision;
     });
-    EXPECT_GE(cells.size(), 2u) << factor;
+    EXPECT_FALSE(cells.empty()) << factor;
     return cells;
 }
 

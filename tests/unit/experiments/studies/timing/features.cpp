@@ -39,7 +39,7 @@ TEST(Features, EveryPairIsReadAndDiffers)
         const bool same_scene = to_json(without) == to_json(with);
         EXPECT_EQ(same_scene, feature.with.threads != feature.without.threads || feature.with.progress);
     }
-    EXPECT_EQ(names.size(), 22u);
+    EXPECT_EQ(names.size(), 21u);
 }
 
 TEST(Features, TheBareSceneHasNothingThatAFeatureAdds)

@@ -98,7 +98,8 @@ TYPED_TEST(BatchedProjections, ResidualsAreThoseOfThePlainForm)
         for (Eigen::Index i = 0; i < p.rows(); ++i) p.row(i) += random.point(noise).transpose();
         auto projection = projection_of<TypeParam>(ordered_options());
         projection.load(p, limb.bind_points, Vec3::Zero());
-        const auto constraints = pbs::make_constraint_set<TypeParam>(limb.mesh, limb.binding.distance, {}, ordered_options());
+        const auto constraints =
+            pbs::make_constraint_set<TypeParam>(limb.mesh, limb.binding.distance, {}, ordered_options());
         const pbs::Residuals expected = residuals_of(constraints, points_of<TypeParam>(p),
                                                      points_of<TypeParam>(limb.bind_points)),
                              found = projection.residuals();
