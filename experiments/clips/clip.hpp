@@ -105,7 +105,7 @@ struct BodyJoints {
 BodyJoints body_joints(const Clip& clip);
 
 // A bone follows the joint of the same name. Where there is none, and clip and skeleton have the names of two schemes
-// that are known (the table in joint_names.cpp), it follows the joint of the same part of the body. For all others,
+// that are known (the table in joint_names.csv), it follows the joint of the same part of the body. For all others,
 // names are compared without capitals, separators, namespaces, a prefix or a number at the end that all names have, and
 // the spelling of the side (LeftHand, hand_l, L.Hand). If a file has a table of body parts (VRM), the name of the part
 // is compared first, and then the name of the joint.

@@ -1,10 +1,15 @@
-// The names that clips and models give to the joints of a body, and the joint of a clip that moves each bone by them.
+// The joint of a clip that moves each bone, by the names that clips and models give to the joints of a body
+// (joint_names.csv).
 #include "experiments/clips/clip.hpp"
+#include "generated/clip_data_texts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <set>
+#include <sstream>
+#include <stdexcept>
 #include <string_view>
 
 namespace pbs {
@@ -12,110 +17,36 @@ namespace {
 
 enum class PartKind { trunk, girdle, limb, leg };  // all but the trunk have two sides
 
-// The columns of the table: the bodies by name, CMU's clips as BVH (cgspeed) and as ASF/AMC, recordings that name
-// joints (elbow, knee) and not limbs, Mixamo (and HumanIK, LAFAN1), Blender's Rigify, Unreal's mannequin, VRM (and
-// VRoid, Unity, Bandai-Namco), Rokoko, Poser (and Daz), Biped of 3ds Max, Character Creator, OptiTrack, Xsens MVN,
-// which counts the chest from the waist, and SMPL.
-constexpr int scheme_of_bodies = 0, schemes = 15;
-
-// A part of the body under its names in each scheme, in lower case without separators, prefix and side; "" where a
-// scheme has no such joint, and words where it has several names.
 struct BodyPart {
+    std::string_view name;  // of its column in joint_names.csv
     PartKind kind;
-    int next;            // its limb ends at the part so many rows below; 0: none
-    double twist_share;  // of the twist of that part, for the bodies by name
-    std::array<std::string_view, schemes> names;
+    int next = 0;              // its limb ends at the part so many rows below; 0: none
+    double twist_share = 0.0;  // of the twist of that part, for the bodies by name
 };
 
 // CMU keeps the twist of the forearm in the wrist. Three joints can carry it here, elbow, mid-forearm and wrist; equal
 // steps of a third at each keep the largest step least: 1/3 on the upper half, 2/3 on the lower half, all of it on the
 // hand.
 constexpr BodyPart body_parts[] = {
-    {PartKind::trunk,
-     0,
-     0.0,
-     {"pelvis", "hips", "root", "hips", "hips", "spine", "pelvis", "hips", "hips", "hip pelvis", "pelvis", "hip pelvis",
-      "hip hips", "hips", "pelvis"}},
-    {PartKind::trunk,
-     0,
-     0.0,
-     {"spine", "lowerback", "lowerback", "ab", "spine", "spine001", "spine01", "spine", "spine spine1",
-      "abdomen abdomenlower spine1", "spine", "waist", "ab", "chest", "spine1"}},
-    {PartKind::trunk,
-     0,
-     0.0,
-     {"", "spine", "upperback", "", "spine1", "spine002", "spine02", "", "spine2", "abdomenupper waist spine2", "",
-      "spine01", "", "chest2", "spine2"}},
-    {PartKind::trunk,
-     0,
-     0.0,
-     {"chest", "spine1", "thorax", "chest", "spine2", "spine003", "spine03", "chest", "chest spine4",
-      "chest chestlower spine3", "spine1", "spine02", "chest", "chest4", "spine3"}},
-    {PartKind::trunk,
-     0,
-     0.0,
-     {"", "", "", "", "spine3", "", "spine04", "upperchest", "", "chestupper spine4", "spine2", "", "", "", ""}},
-    {PartKind::trunk,
-     0,
-     0.0,
-     {"neck", "neck", "lowerneck", "neck", "neck", "spine004", "neck01", "neck", "neck", "neck necklower neck1", "neck",
-      "necktwist01", "neck", "neck", "neck"}},
-    {PartKind::trunk,
-     0,
-     0.0,
-     {"", "neck1", "upperneck", "", "", "spine005", "neck02", "", "", "neckupper neck2", "", "necktwist02", "", "",
-      ""}},
-    {PartKind::trunk,
-     0,
-     0.0,
-     {"head", "head", "head", "head", "head", "spine006", "head", "head", "head", "head", "head", "head", "head",
-      "head", "head"}},
-    {PartKind::girdle,
-     0,
-     0.0,
-     {"clavicle", "shoulder", "clavicle", "collar", "shoulder", "shoulder", "clavicle", "shoulder", "shoulder",
-      "collar shoulder", "clavicle", "clavicle", "shoulder", "collar", "collar"}},
-    {PartKind::limb,
-     1,
-     0.0,
-     {"upperarm", "arm", "humerus", "shoulder", "arm", "upperarm", "upperarm", "upperarm", "arm",
-      "shldr shldrbend upperarm", "upperarm", "upperarm", "uarm", "shoulder", "shoulder"}},
-    {PartKind::limb,
-     2,
-     1.0 / 3.0,
-     {"forearmupper", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm",
-      "forearm forearmbend", "forearm", "forearm", "farm", "elbow", "elbow"}},
-    {PartKind::limb,
-     1,
-     2.0 / 3.0,
-     {"forearmlower", "forearm", "radius", "elbow", "forearm", "forearm", "lowerarm", "lowerarm", "forearm",
-      "forearm forearmbend", "forearm", "forearm", "farm", "elbow", "elbow"}},
-    {PartKind::limb,
-     0,
-     0.0,
-     {"hand", "hand", "wrist", "wrist", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "hand", "wrist",
-      "wrist"}},
-    {PartKind::leg,
-     1,
-     0.0,
-     {"thigh", "upleg", "femur", "hip", "upleg", "thigh", "thigh", "upperleg", "thigh", "thigh thighbend", "thigh",
-      "thigh", "thigh", "hip", "hip"}},
-    {PartKind::leg,
-     1,
-     0.0,
-     {"shin", "leg", "tibia", "knee", "leg", "shin", "calf", "lowerleg", "shin", "shin", "calf", "calf", "shin", "knee",
-      "knee"}},
-    {PartKind::limb,
-     1,
-     0.0,
-     {"foot", "foot", "foot", "ankle", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "foot", "ankle",
-      "ankle"}},
-    {PartKind::limb,
-     0,
-     0.0,
-     {"", "toebase", "toes", "toes", "toebase toe", "toe", "ball", "toebase toes toe", "toe", "toe toes", "toe0",
-      "toebase", "toe", "toe", "foot"}},
+    {"pelvis", PartKind::trunk},
+    {"spine", PartKind::trunk},
+    {"middle_spine", PartKind::trunk},
+    {"chest", PartKind::trunk},
+    {"upper_chest", PartKind::trunk},
+    {"neck", PartKind::trunk},
+    {"upper_neck", PartKind::trunk},
+    {"head", PartKind::trunk},
+    {"clavicle", PartKind::girdle},
+    {"upper_arm", PartKind::limb, 1},
+    {"forearm_upper", PartKind::limb, 2, 1.0 / 3.0},
+    {"forearm_lower", PartKind::limb, 1, 2.0 / 3.0},
+    {"hand", PartKind::limb},
+    {"thigh", PartKind::leg, 1},
+    {"shin", PartKind::leg, 1},
+    {"foot", PartKind::limb, 1},
+    {"toes", PartKind::limb},
 };
+constexpr int parts = static_cast<int>(std::size(body_parts));
 
 constexpr int chest_row = 3, neck_row = 5, head_row = 7, upper_arm_row = 9, forearm_row = 10, hand_row = 12,
               thigh_row = 13, shin_row = 14, foot_row = 15;
@@ -158,29 +89,59 @@ bool is_small_part(const std::string& word)
     return small_parts.count(word.substr(0, word.find_last_not_of("0123456789") + 1)) > 0;
 }
 
-// The names that a scheme has for the part.
-std::vector<std::string_view> names_of(const BodyPart& part, int scheme)
+using PartNames = std::array<std::vector<std::string>, parts>;  // a scheme: the names of each part
+
+std::vector<std::string> cells_of(const std::string& row)
 {
-    std::vector<std::string_view> list;
-    for (std::string_view names = part.names[scheme]; !names.empty();) {
-        const std::size_t end = std::min(names.find(' '), names.size());
-        list.push_back(names.substr(0, end));
-        names.remove_prefix(std::min(end + 1, names.size()));
-    }
-    return list;
+    std::vector<std::string> cells(1);
+    for (const char c : row)
+        if (c == ',')
+            cells.emplace_back();
+        else
+            cells.back() += c;
+    return cells;
 }
 
-bool is_called(const BodyPart& part, int scheme, std::string_view stem)
+// The table of joint_names.csv, of which the first scheme is that of the bodies by name.
+std::vector<PartNames> read_schemes()
 {
-    const std::vector<std::string_view> names = names_of(part, scheme);
-    return std::ranges::find(names, stem) != names.end();
+    std::vector<PartNames> read;
+    std::istringstream table(clip_data::joint_names_csv);
+    for (std::string row; std::getline(table, row);) {
+        if (row.starts_with('#')) continue;
+        const std::vector<std::string> cells = cells_of(row);
+        if (cells.size() != parts + 1) throw std::logic_error("joint_names.csv: expected a cell for each part: " + row);
+        if (cells[0] == "scheme") {
+            for (int part = 0; part < parts; ++part)
+                if (cells[part + 1] != body_parts[part].name)
+                    throw std::logic_error("joint_names.csv: unexpected column " + cells[part + 1]);
+            continue;
+        }
+        if (!cells[0].empty()) read.emplace_back();
+        for (int part = 0; part < parts; ++part)
+            if (!cells[part + 1].empty()) read.back()[part].push_back(cells[part + 1]);
+    }
+    return read;
+}
+
+constexpr int scheme_of_bodies = 0;
+
+const std::vector<PartNames>& schemes()
+{
+    static const std::vector<PartNames> read = read_schemes();
+    return read;
+}
+
+bool is_called(const PartNames& scheme, int part, const std::string& stem)
+{
+    return std::ranges::find(scheme[part], stem) != scheme[part].end();
 }
 
 bool has_two_sides(const std::string& stem)
 {
-    return is_small_part(stem) || std::ranges::any_of(body_parts, [&](const BodyPart& part) {
-               for (int scheme = 0; scheme < schemes; ++scheme)
-                   if (part.kind != PartKind::trunk && is_called(part, scheme, stem)) return true;
+    return is_small_part(stem) || std::ranges::any_of(schemes(), [&](const PartNames& scheme) {
+               for (int part = 0; part < parts; ++part)
+                   if (body_parts[part].kind != PartKind::trunk && is_called(scheme, part, stem)) return true;
                return false;
            });
 }
@@ -259,10 +220,11 @@ std::vector<JointKey> keys_of(const std::vector<std::string>& names)
 int part_of(const JointKey& key, int scheme)
 {
     if (scheme < 0) return -1;
-    const auto* found = std::ranges::find_if(body_parts, [&](const BodyPart& part) {
-        return is_called(part, scheme, key.stem) && (key.side != ' ') == (part.kind != PartKind::trunk);
-    });
-    return found == std::end(body_parts) ? -1 : static_cast<int>(found - body_parts);
+    for (int part = 0; part < parts; ++part)
+        if (is_called(schemes()[scheme], part, key.stem) &&
+            (key.side != ' ') == (body_parts[part].kind != PartKind::trunk))
+            return part;
+    return -1;
 }
 
 // The scheme that knows most of the names, thighs and shins among them; -1: none.
@@ -270,7 +232,7 @@ int scheme_of(const std::vector<JointKey>& keys)
 {
     int scheme = -1;
     std::size_t most = 0;
-    for (int s = 0; s < schemes; ++s) {
+    for (int s = 0; s < static_cast<int>(schemes().size()); ++s) {
         std::multiset<int> parts;
         for (const JointKey& key : keys) parts.insert(part_of(key, s));
         const std::size_t known = parts.size() - parts.count(-1);
@@ -292,7 +254,7 @@ int joint_with(const std::vector<JointKey>& keys, std::string_view stem, char si
 int joint_of_part(const std::vector<JointKey>& keys, int row, int scheme, char side)
 {
     if (scheme < 0) return -1;
-    for (const std::string_view name : names_of(body_parts[row], scheme))
+    for (const std::string& name : schemes()[scheme][row])
         if (const int joint = joint_with(keys, name, side); joint >= 0) return joint;
     return -1;
 }
