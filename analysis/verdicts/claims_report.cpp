@@ -34,7 +34,8 @@ json to_json_of(const LeftOut& out)
 json to_json_of(const Threshold& threshold)
 {
     json object = to_json_of(threshold.of);
-    object.update({{"low", finite(threshold.low)}, {"high", finite(threshold.high)}});
+    object.update(
+        {{"low", finite(threshold.low)}, {"high", finite(threshold.high)}, {"threshold", threshold_text(threshold)}});
     if (!threshold.quantity.empty()) object["quantity"] = threshold.quantity;
     return object;
 }
@@ -45,6 +46,7 @@ json tested_value(const CaseKey& of, const std::string& quantity, double value, 
     object.update({{"value", finite(value)},
                    {"threshold_low", finite(threshold.low)},
                    {"threshold_high", finite(threshold.high)},
+                   {"threshold", threshold_text(threshold)},
                    {"holds", holds}});
     if (!quantity.empty()) object["quantity"] = quantity;
     return object;

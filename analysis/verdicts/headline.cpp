@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 namespace analysis {
 namespace {
@@ -180,12 +181,14 @@ std::string asked_text(const Claim& claim)
 
 std::string threshold_text(const Threshold& threshold)
 {
+    const bool has_low = std::isfinite(threshold.low), has_high = std::isfinite(threshold.high);
+    if (!has_low && !has_high) return "";
     if (threshold.low == threshold.high) return fmt::format("{:.4g}", threshold.low);
-    if (std::isinf(threshold.high))
+    if (!has_high)
         return threshold.low > 0.0 && threshold.low <= 1e-9 ? "above 0" : fmt::format("{:.4g} or more", threshold.low);
-    if (std::isinf(threshold.low))
-        return std::nextafter(threshold.high, 2.0) == 1.0 ? "below 1" : fmt::format("{:.4g} or less", threshold.high);
-    return fmt::format("{:.4g} to {:.4g}", threshold.low, threshold.high);
+    if (has_low) return fmt::format("{:.4g} to {:.4g}", threshold.low, threshold.high);
+    const bool is_round = threshold.high == std::stod(fmt::format("{:.15g}", threshold.high));
+    return is_round ? fmt::format("{:.4g} or less", threshold.high) : fmt::format("below {:.4g}", threshold.high);
 }
 
 }  // namespace analysis

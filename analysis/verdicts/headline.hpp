@@ -29,6 +29,8 @@ std::string measured_text(const Verdict& verdict);
 // 30 or more. Empty for a claim that asks nothing.
 std::string asked_text(const Claim& claim);
 
-std::string threshold_text(const Threshold& threshold);  // 0.9 to 1.1; 30 or more
+// 0.9 to 1.1; 1.05 or more; above 0; below 1; empty without an end. A threshold right beside a round number excludes
+// this number.
+std::string threshold_text(const Threshold& threshold);
 
 }  // namespace analysis

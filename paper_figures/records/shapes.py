@@ -117,7 +117,7 @@ key = {name + "?": text for name in ("body", "motion", "pose", "joint", "deforme
 key |= {name + "?": number for name in ("angle_deg", "time_s", "vertices", "vertices_to", "k_stretch", "k_stretch_to",
                                         "k_bind", "young_pa", "iterations", "iterations_to", "time_step_s",
                                         "time_step_to_s")}
-judged = {"value": figure, "threshold_low": figure, "threshold_high": figure, "holds": truth}
+judged = {"value": figure, "threshold_low": figure, "threshold_high": figure, "threshold": text, "holds": truth}
 excluded = one_of(None, "nothing_to_see", "no_control", "nothing_to_compare_with", "censored")
 tested = key | judged | {"quantity?": text, "unit": text, "low": figure, "high": figure, "n": whole,
                          "excluded": excluded, "limit?": one_of("at_least", "at_most", "more_than"),
@@ -125,7 +125,7 @@ tested = key | judged | {"quantity?": text, "unit": text, "low": figure, "high":
 printed = key | judged | {"quantity": text}
 facts = {"held": whole, "n": whole, "share": figure, "least": figure, "median": figure, "most": figure,
          "excluded_cases": {"*": whole}, "quantities": [text], "of": key, "over": key,
-         "thresholds": [key | {"low": figure, "high": figure, "quantity?": text}]}
+         "thresholds": [key | {"low": figure, "high": figure, "threshold": text, "quantity?": text}]}
 selection = facts | {"name": text, "role": one_of("negative_control", "positive_control", "comparison"),
                      "behaves": truth, "cases": [tested]}
 difference = {"field": text, "least_at": text, "least": number, "most_at": text, "most": number}

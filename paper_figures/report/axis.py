@@ -64,7 +64,7 @@ def drawn(claim):
               f'8h-8z"><title>{escaped(name)}</title></path>'
               for name, cases in controls if cases]
     label = (f"{sentences.title(claim, quantity)}: {sentences.span(tested)}; threshold: "
-             f"{sentences.threshold(low, high) or 'none'}")
+             f"{sentences.threshold(tested[0]) or 'none'}")
     label += f"; {counted(others, 'more number has', 'more numbers have')} other thresholds" if others else ""
     # The label is for those who do not see the picture.
     kinds = [f"control {name}: {figure(middle(cases))}" for name, cases in controls if cases]

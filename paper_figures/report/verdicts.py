@@ -32,8 +32,7 @@ def case_rows(claim, case):
         of = ", ".join(filter(None,
                               [case_words.of(part), sentences.title(claim, part["quantity"]) if has_quantity else ""]))
         ends = "" if part.get("low") == part.get("high") else f"{figure(part['low'])} to {figure(part['high'])}"
-        threshold = sentences.threshold(part["threshold_low"], part["threshold_high"])
-        rows.append([of, sentences.shown(part), ends or "\u2013", threshold, outcome(part)])
+        rows.append([of, sentences.shown(part), ends or "\u2013", sentences.threshold(part), outcome(part)])
     return rows
 
 

@@ -55,24 +55,15 @@ def with_unit(unit):
     return "" if unit in ("", "1") else f" {unit}"
 
 
-def threshold(low, high):
-    """0.9 to 1.1; 1.05 or more; below 1; above 0; empty without one. A threshold right beside a round number excludes
-    this number."""
-    if low is not None and high is not None:
-        text = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
-    elif low is not None:
-        text = "above 0" if 0 < low <= 1e-9 else f"{low:.4g} or more"
-    elif high is not None:
-        text = f"{high:.4g} or less" if high == float(f"{high:.15g}") else f"below {high:.4g}"
-    else:
-        text = ""
-    return text.replace("-", "\u2212")
+def threshold(of):
+    """The words of claims.json for the threshold of a case: 0.9 to 1.1; 1.05 or more; empty without one."""
+    return of["threshold"].replace("-", "\u2212")
 
 
 def settings_of(of):
     """The settings for which a threshold is, where there are several."""
     return [case_words.of_field(field, value)
-            for field, value in of.items() if field not in ("low", "high", "quantity")]
+            for field, value in of.items() if field not in ("low", "high", "threshold", "quantity")]
 
 
 def expected(claim):
@@ -81,8 +72,7 @@ def expected(claim):
         return ["each value as the others require"]
     named = [", ".join(settings_of(of) + ([title(claim, of["quantity"])] if "quantity" in of else []))
              for of in claim["thresholds"]]
-    return [": ".join(filter(None, [name, threshold(of["low"], of["high"])]))
-            for name, of in zip(named, claim["thresholds"])]
+    return [": ".join(filter(None, [name, threshold(of)])) for name, of in zip(named, claim["thresholds"])]
 
 
 def shown(case):
@@ -143,9 +133,10 @@ def numbers(claim):
         for ends in dict.fromkeys((case["threshold_low"], case["threshold_high"]) for case in cases):
             settings = [settings_of(of) for of in claim["thresholds"]
                         if (of["low"], of["high"]) == ends and of.get("quantity", quantity) == quantity]
-            text = span([case for case in cases if (case["threshold_low"], case["threshold_high"]) == ends])
+            tested = [case for case in cases if (case["threshold_low"], case["threshold_high"]) == ends]
+            words = threshold(tested[0])
             name = ", ".join([number_of(claim, quantity), *(settings[0] if settings else [])])
-            texts.append(f"{name}: {text}" + (f", threshold {threshold(*ends)}" if threshold(*ends) else ""))
+            texts.append(f"{name}: {span(tested)}" + (f", threshold {words}" if words else ""))
     return texts
 
 
@@ -272,7 +263,7 @@ def one_number(claim):
     """The single number by which a claim is judged, with the range that decides."""
     case, = claim["cases"]
     return (f"{number_of(claim, claim['quantities'][0])}: {shown(case)} ({range_name(claim)}: {figure(case['low'])} to "
-            f"{figure(case['high'])}), threshold {threshold(case['threshold_low'], case['threshold_high'])}")
+            f"{figure(case['high'])}), threshold {threshold(case)}")
 
 
 def basis(claim):

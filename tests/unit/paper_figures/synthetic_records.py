@@ -217,11 +217,11 @@ def write_bench(results):
 
 
 def case(number, holds=True, low=None, high=None, threshold_low=0.95, threshold_high=None, unit="1", excluded=None,
-         **key):
+         threshold="0.95 or more", **key):
     """A case of a claim as in claims.json; `limit` is a member like the fields of its key."""
     return {**key, "unit": unit, "value": number, "low": number if low is None else low,
             "high": number if high is None else high, "threshold_low": threshold_low, "threshold_high": threshold_high,
-            "n": 1, "holds": holds, "excluded": excluded}
+            "threshold": threshold, "n": 1, "holds": holds, "excluded": excluded}
 
 
 def facts(cases):
@@ -237,7 +237,7 @@ def facts(cases):
 
 
 def selection(name, cases=(), role="comparison", behaves=True, **others):
-    thresholds = [{"low": 0.95, "high": None}]
+    thresholds = [{"low": 0.95, "high": None, "threshold": "0.95 or more"}]
     return {**facts(list(cases)), "name": name, "role": role, "quantities": ["ratio"], "thresholds": thresholds,
             "behaves": behaves, **others}
 
@@ -245,7 +245,8 @@ def selection(name, cases=(), role="comparison", behaves=True, **others):
 def claim(name, verdict, cases=(), **others):
     empty = {"statement": "Volume is kept.", "place": "Sec. 4", "study": "volume", "rule": "cases", "reason": "",
              "why_inconclusive": "none",
-             "quantities": ["ratio"], "thresholds": [{"low": 0.95, "high": None}], "source": "Sec. 4",
+             "quantities": ["ratio"],
+             "thresholds": [{"low": 0.95, "high": None, "threshold": "0.95 or more"}], "source": "Sec. 4",
              "range": "meshes", "case_fields": ["body"], "interval_low": None, "interval_high": None, "chance": None,
              "q": None, "differs": None, "fixed_at": "", "held_out": None, "controls": [], "compared": [],
              "readings": [], "excluded_scenes": [], "thresholds_fixed_at": others.get("fixed_at", ""),
@@ -259,17 +260,18 @@ def write_claims(results, statement="Volume is kept."):
     untestable."""
     clips = [case(share, share > 0.95, 0.1, body="human", motion=clip)
              for clip, share in (("01_01", 0.975), ("01_03", 0.4), ("01_05", 0.2))]
-    rates = [case(rate, True, rate - 3.0, rate + 7.0, 30.0, None, "1/s", body=body)
+    rates = [case(rate, True, rate - 3.0, rate + 7.0, 30.0, None, "1/s", threshold="30 or more", body=body)
              for body, rate in (("man", 233.0), ("frankie", 107.0))]
     printed = [{"quantity": "tets", "model": "Man", "value": 5000.0, "threshold_low": 1.0, "threshold_high": bound,
-                "holds": holds}
+                "threshold": "1 or more" if bound is None else f"1 to {bound:g}", "holds": holds}
                for bound, holds in ((None, True), (9.0, False))]
     lbs = selection("LBS", [case(0.01, False, body="human", motion="01_01")], "negative_control")
     author = selection("the author's later code", [case(0.99, body="human", motion="01_01")])
     judged = [claim("C02a", "fails", clips, runs=["volume/limb_twist"], quantities=["share_kept"],
                     case_fields=["body", "motion"], interval_low=0.01, interval_high=0.91, chance=0.7, q=1 / 3,
                     fixed_at=revision, controls=[lbs], compared=[author], readings=[selection("ordered f32", clips)]),
-              claim("C10a", "holds", rates, quantities=["frames_per_s"], thresholds=[{"low": 30.0, "high": None}],
+              claim("C10a", "holds", rates, quantities=["frames_per_s"],
+                    thresholds=[{"low": 30.0, "high": None, "threshold": "30 or more"}],
                     interval_low=0.16, interval_high=1.0, chance=0.001, q=0.03, measured="107 to 233 frames/s",
                     asked="30 or more", differs={"field": "body", "least_at": "man", "least": 1, "most_at": "lady",
                                                  "most": 1}),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace {
 
@@ -105,6 +106,20 @@ TEST(ShortName, HasAtMostEightWordsAndItsWidth)
     for (const std::string& text :
          {std::string(), std::string("  "), std::string("1 2 3 4 5 6 7 8 9"), std::string(33, 'a')})
         EXPECT_EQ(fault(text), rule) << text;
+}
+
+TEST(Threshold, IsPutIntoWords)
+{
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const auto text = [](double low, double high) { return threshold_text({.low = low, .high = high}); };
+    EXPECT_EQ(text(0.9, 1.1), "0.9 to 1.1");
+    EXPECT_EQ(text(30.0, none), "30 or more");
+    EXPECT_EQ(text(-none, 1.05), "1.05 or less");
+    EXPECT_EQ(text(-none, 1e-12), "1e-12 or less");
+    EXPECT_EQ(text(0.0, 0.0), "0");
+    EXPECT_EQ(text(-none, std::nextafter(1.0, 0.0)), "below 1");
+    EXPECT_EQ(text(1e-9, none), "above 0");
+    EXPECT_EQ(text(-none, none), "");
 }
 
 TEST(Asked, IsTheThresholdOfTheNumbersThatTheHeadlineStates)
