@@ -163,16 +163,6 @@ int orient(pbs::Triangles& triangles)
     return fewer == 1 ? ones : static_cast<int>(triangles.rows()) - ones;
 }
 
-double area_of(const pbs::Positions& points, const pbs::Triangles& triangles)
-{
-    double area = 0.0;
-    for (const auto& triangle : triangles.rowwise()) {
-        const pbs::Vec3 a = points.row(triangle(0)), b = points.row(triangle(1)), c = points.row(triangle(2));
-        area += 0.5 * (b - a).cross(c - a).norm();
-    }
-    return area;
-}
-
 // The rims of a surface whose triangles face to one side: each hole's points, in the direction in which a cap passes
 // them. Empty where a point belongs to several rims, or an edge to several triangles on one side.
 std::vector<std::vector<int>> rims_of(const pbs::Triangles& triangles)
@@ -215,7 +205,7 @@ double cap_area(const pbs::Positions& points, const std::vector<int>& rim)
 {
     double area_m2 = 0.0;
     for_each_of_cap(points, rim,
-                    [&](const auto& a, const auto& b, const auto& c) { area_m2 += 0.5 * (b - a).cross(c - a).norm(); });
+                    [&](const auto& a, const auto& b, const auto& c) { area_m2 += pbs::triangle_area(a, b, c); });
     return area_m2;
 }
 
@@ -250,7 +240,7 @@ void cap_holes(const pbs::Positions& points, Shell& shell)
 Shell measured_shell(const pbs::Positions& points, pbs::Triangles triangles, Holes holes)
 {
     Shell shell;
-    shell.area_m2 = area_of(points, triangles);
+    shell.area_m2 = pbs::surface_area(points, triangles);
     if (pbs::open_edge(triangles)) shell.turned = orient(triangles);
     for_each_edge(sides_of(triangles), [&](auto first, auto last) {
         if (is_balanced(first, last)) return;

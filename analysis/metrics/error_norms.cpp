@@ -70,12 +70,6 @@ Vec3 point_of(const Positions& positions, int vertex)
     return positions.row(vertex);
 }
 
-double triangle_area(const Positions& positions, const std::array<int, 3>& face)
-{
-    const Vec3 a = point_of(positions, face[0]);
-    return 0.5 * (point_of(positions, face[1]) - a).cross(point_of(positions, face[2]) - a).norm();
-}
-
 // The signed angle between the normals of the triangles (first, second, left) and (second, first, right); zero where
 // the skin is flat.
 double dihedral_angle(const Positions& positions, int first, int second, int left, int right)
@@ -164,8 +158,10 @@ void SmoothnessMetrics::find_inner_faces(const std::vector<bool>& near)
     std::map<std::array<int, 2>, InnerFace> in_file_order;  // by the second tet and its corner opposite to the face
     for (std::size_t f = 1; f < faces.size(); ++f) {
         const pbs::TetFace &face = faces[f], &before = faces[f - 1];
-        if (face.sorted == before.sorted && all_near(face.sorted, near))
-            in_file_order[{face.tet, face.face}] = {before.tet, face.tet, triangle_area(rest_, face.sorted)};
+        if (face.sorted != before.sorted || !all_near(face.sorted, near)) continue;
+        const auto& [a, b, c] = face.sorted;
+        const double area_m2 = pbs::triangle_area(rest_.row(a), rest_.row(b), rest_.row(c));
+        in_file_order[{face.tet, face.face}] = {before.tet, face.tet, area_m2};
     }
     for (const auto& [place, face] : in_file_order) faces_.push_back(face);
 }

@@ -144,10 +144,10 @@ std::vector<Cut> cuts_of(const TetMesh& mesh, const SkinParts& parts, const std:
     for (std::size_t f = 0; f < faces.size(); ++f) {
         if (!is_cut[f]) continue;
         const auto& [a, b, c] = faces[f].vertices;
-        const Vec3 origin = mesh.rest.row(a), one = mesh.rest.row(b), other = mesh.rest.row(c);
         const auto skin_of = [&](int tet) { return skin[static_cast<std::size_t>(tet)]; };
         const auto bones = parts.bones_between(skin_of(faces[f].first), skin_of(faces[f].second));
-        areas[std::minmax(bones.first, bones.second)] += 0.5 * (one - origin).cross(other - origin).norm();
+        areas[std::minmax(bones.first, bones.second)] +=
+            triangle_area(mesh.rest.row(a), mesh.rest.row(b), mesh.rest.row(c));
     }
     std::vector<Cut> cuts;
     for (const auto& [bones, area] : areas) cuts.push_back({bones.first, bones.second, area});

@@ -16,12 +16,6 @@ struct Shell {
     double area_m2 = 0.0, volume_m3 = 0.0;
 };
 
-double area_of(const Positions& points, const Eigen::RowVector3i& triangle)
-{
-    const Vec3 a = points.row(triangle(0)), b = points.row(triangle(1)), c = points.row(triangle(2));
-    return 0.5 * (b - a).cross(c - a).norm();
-}
-
 std::vector<Shell> shells_of(const SurfaceMesh& surface)
 {
     const Triangles joined = joined_triangles(surface.points, surface.triangles);
@@ -33,8 +27,8 @@ std::vector<Shell> shells_of(const SurfaceMesh& surface)
         by_class[classes.find(joined(t, 0))].triangles.push_back(t);
     std::vector<Shell> shells;
     for (auto& [own, shell] : by_class) {
-        for (const int t : shell.triangles) shell.area_m2 += area_of(surface.points, surface.triangles.row(t));
         const Triangles own_triangles = surface.triangles(shell.triangles, Eigen::all);
+        shell.area_m2 = surface_area(surface.points, own_triangles);
         const Eigen::VectorXi corners = own_triangles.reshaped();
         const Positions points = surface.points(corners, Eigen::all);  // of this shell alone, for the middle of the fan
         const auto count = own_triangles.rows();

@@ -186,7 +186,7 @@ private:
         double area = 0.0, open = 0.0;
         for (const std::size_t f : shell) {
             const auto& [a, b, c] = faces_[f].corners;
-            area += 0.5 * Vec3(points_.row(b) - points_.row(a)).cross(Vec3(points_.row(c) - points_.row(a))).norm();
+            area += triangle_area(points_.row(a), points_.row(b), points_.row(c));
             for (const auto& edge : faces_[f].edges())
                 if (at_edge_.at(edge).size() != 2) open += (points_.row(edge.first) - points_.row(edge.second)).norm();
         }

@@ -203,11 +203,7 @@ std::map<int, int> add_bones(const Rig& rig, RiggedBody& body)
 
 bool is_inside_out(const Positions& points, const Triangles& triangles)
 {
-    double area = 0.0;
-    for (const auto& triangle : triangles.rowwise()) {
-        const Vec3 a = points.row(triangle(0)), b = points.row(triangle(1)), c = points.row(triangle(2));
-        area += 0.5 * (b - a).cross(c - a).norm();
-    }
+    const double area = surface_area(points, triangles);
     return fan_volume(points, triangles) < -least_closed * area * std::sqrt(area);
 }
 

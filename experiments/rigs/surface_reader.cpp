@@ -170,11 +170,7 @@ std::string remark_on_single_precision(const Positions& points, const Triangles&
     const double step = std::ldexp(1.0, std::ilogb(farthest) - std::numeric_limits<float>::digits + 1);
     const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
     if (!(size < steps_of_a_good_body * step)) return "";
-    double area = 0.0;
-    for (const auto& triangle : triangles.rowwise()) {
-        const Vec3 a = points.row(triangle(0)), b = points.row(triangle(1)), c = points.row(triangle(2));
-        area += 0.5 * (b - a).cross(c - a).norm();
-    }
+    const double area = surface_area(points, triangles);
     // Each point is up to half a step off in each direction, and the volume by at most the area times that distance.
     const double volume_pct = 100.0 * area * 0.5 * std::sqrt(3.0) * step / std::abs(fan_volume(points, triangles));
     return "coordinates in single precision up to " + number_text(farthest, 3) +

@@ -22,17 +22,6 @@ constexpr double follows = 0.5;          // the mean weight of that bone in the 
 constexpr std::size_t fewest = 8;        // points of a part: fewer, or points near a line, do not show a rotation
 constexpr double least_of_widths = 0.1;  // the second width of a part over its first one
 
-// A third of each triangle at each of its corners [m^2], #S.
-Eigen::VectorXd areas_of_points(const pbs::Positions& points, const pbs::Triangles& triangles)
-{
-    Eigen::VectorXd areas_m2 = Eigen::VectorXd::Zero(points.rows());
-    for (const auto& triangle : triangles.rowwise()) {
-        const pbs::Vec3 a = points.row(triangle(0)), b = points.row(triangle(1)), c = points.row(triangle(2));
-        for (const int corner : triangle) areas_m2(corner) += (b - a).cross(c - a).norm() / 6.0;
-    }
-    return areas_m2;
-}
-
 }  // namespace
 
 PartsOfOneBone::PartsOfOneBone(const pbs::Character& character) : character_(character)
@@ -71,7 +60,7 @@ void PartsOfOneBone::add_parts_of_surface()
         for (int k = 0; k < 3; ++k)
             if (const int a = triangle(k), b = triangle((k + 1) % 3); bone_of[a] >= 0 && bone_of[a] == bone_of[b])
                 classes.unite(a, b);
-    const Eigen::VectorXd areas_m2 = areas_of_points(body.surface, across_seams);
+    const Eigen::VectorXd areas_m2 = pbs::lumped_areas(body.surface, across_seams);
     area_m2_ = areas_m2.sum();
     std::map<int, Shares> members;
     for (int p = 0; p < static_cast<int>(bone_of.size()); ++p)

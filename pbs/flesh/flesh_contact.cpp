@@ -11,12 +11,8 @@ namespace {
 
 Eigen::VectorXd column_stiffness(const TetMesh& mesh, const FleshEnergy& energy)
 {
-    Eigen::VectorXd section = Eigen::VectorXd::Zero(mesh.rest.rows()), modulus_volume = section, stiffness = section;
-    const Triangles skin = boundary_of(mesh.tets);
-    for (const auto triangle : skin.rowwise()) {
-        const Vec3 a = mesh.rest.row(triangle(0)), b = mesh.rest.row(triangle(1)), c = mesh.rest.row(triangle(2));
-        for (const int v : triangle) section(v) += (b - a).cross(c - a).norm() / 6.0;
-    }
+    const Eigen::VectorXd section = lumped_areas(mesh.rest, boundary_of(mesh.tets));
+    Eigen::VectorXd modulus_volume = Eigen::VectorXd::Zero(mesh.rest.rows()), stiffness = modulus_volume;
     const Eigen::VectorXd volume = lumped_volumes(mesh.rest, mesh.tets), volumes = tet_volumes(mesh.rest, mesh.tets);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         const double modulus = 6.0 * energy.tets()[t].kappa * energy.tets()[t].d;  // lambda alpha = lambda + mu

@@ -185,6 +185,29 @@ Eigen::VectorXd lumped_volumes(const Positions& rest, const Tets& tets)
     return lumped;
 }
 
+double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+    return 0.5 * (b - a).cross(c - a).norm();
+}
+
+double surface_area(const Positions& points, const Triangles& triangles)
+{
+    double area = 0.0;
+    for (const auto& triangle : triangles.rowwise())
+        area += triangle_area(points.row(triangle(0)), points.row(triangle(1)), points.row(triangle(2)));
+    return area;
+}
+
+Eigen::VectorXd lumped_areas(const Positions& points, const Triangles& triangles)
+{
+    Eigen::VectorXd lumped = Eigen::VectorXd::Zero(points.rows());
+    for (const auto& triangle : triangles.rowwise()) {
+        const double area = triangle_area(points.row(triangle(0)), points.row(triangle(1)), points.row(triangle(2)));
+        for (const int corner : triangle) lumped(corner) += area / 3.0;
+    }
+    return lumped;
+}
+
 double fan_volume(const Positions& points, const Triangles& triangles)
 {
     const Vec3 middle = points.colwise().mean().transpose();

@@ -51,6 +51,13 @@ Eigen::Matrix<double, 3, 4> barycentric_gradients(const TetMesh& mesh, Eigen::In
 // A quarter of the rest volume of each tet around a vertex [m^3], #V: the lumped rest volume.
 Eigen::VectorXd lumped_volumes(const Positions& rest, const Tets& tets);
 
+// The area of the triangle of three points [m^2].
+double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c);
+// The sum of the triangles' areas [m^2].
+double surface_area(const Positions& points, const Triangles& triangles);
+// A third of the area of each triangle around a point [m^2], #V.
+Eigen::VectorXd lumped_areas(const Positions& points, const Triangles& triangles);
+
 // The signed volume inside the triangles [m^3], as if closed by a fan from the points' mean; negative where they face
 // inward.
 double fan_volume(const Positions& points, const Triangles& triangles);

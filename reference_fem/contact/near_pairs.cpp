@@ -178,7 +178,7 @@ ContactSurface contact_surface(const SimplexSpace& space)
     std::map<std::array<int, 2>, double> edges;
     for (const auto& [a, b, c] : surface.triangles) {
         const auto at = [&](int node) -> Vec3 { return space.node_positions().row(node); };
-        const double third = (at(b) - at(a)).cross(at(c) - at(a)).norm() / 6.0;
+        const double third = pbs::triangle_area(at(a), at(b), at(c)) / 3.0;
         for (const int node : {a, b, c}) surface.node_area(node) += third;
         for (const auto& [one, other] : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
             edges[{std::min(one, other), std::max(one, other)}] += third;

@@ -49,7 +49,7 @@ Positions end_load(const pbs::TetMesh& bar)
     for (const auto& triangle : boundary.rowwise()) {
         const Vec3 a = bar.rest.row(triangle(0)), b = bar.rest.row(triangle(1)), c = bar.rest.row(triangle(2));
         if (std::min({a.x(), b.x(), c.x()}) < length_m - 1e-9) continue;
-        for (const int v : triangle) load(v, 2) -= (b - a).cross(c - a).norm() / 6.0;
+        for (const int v : triangle) load(v, 2) -= pbs::triangle_area(a, b, c) / 3.0;
     }
     return load;
 }

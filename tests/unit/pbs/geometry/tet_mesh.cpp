@@ -54,6 +54,18 @@ TEST(LumpedVolumes, AreAQuarterOfEachTetAround)
     EXPECT_EQ(lumped(4), 0.0);
 }
 
+// Reference: Heron's formula for the sides 3, 4 and 5, in which nothing is rounded.
+TEST(TriangleAreas, AddUpAndBelongToTheirCorners)
+{
+    pbs::Positions points(5, 3);
+    points << 0, 0, 0, 3, 0, 0, 0, 4, 0, 0, 0, 4, 9, 9, 9;
+    pbs::Triangles triangles(2, 3);
+    triangles << 0, 1, 2, 0, 3, 1;
+    EXPECT_EQ(pbs::triangle_area(points.row(0), points.row(1), points.row(2)), 6.0);
+    EXPECT_EQ(pbs::surface_area(points, triangles), 12.0);
+    EXPECT_EQ(pbs::lumped_areas(points, triangles), (Eigen::VectorXd(5) << 4, 4, 2, 2, 0).finished());
+}
+
 // Reference: counts of red refinement (V + E vertices, 2E + 3F + T edges, 8T tets), Euler's formula, and the definition
 // of a midpoint.
 
