@@ -86,8 +86,9 @@ int nearest_node(const SimplexSpace& space, const pbs::Vec3& point);  // by rest
 
 // A boundary value problem with any of the laws, by Newton along a load path: prescribed displacements and dead loads
 // grow together.
-//   FiniteStrainSolution solution = solve_at_finite_strain(mesh, material, Model::isochoric_neo_hookean, problem,
-//   {.first_step = 0.2}); if (solution.path.converged()) solution.displacement_at(point);
+//   FiniteStrainSolution solution =
+//       solve_at_finite_strain(mesh, material, Model::isochoric_neo_hookean, problem, {.first_step = 0.2});
+//   if (solution.path.converged()) solution.displacement_at(point);
 // Not reaching the end is an outcome: path says how far it went.
 struct FiniteStrainSolution {
     std::shared_ptr<const SimplexSpace> space;  // its node v is vertex v of the mesh

@@ -1,7 +1,7 @@
 // Cross-sections of a body: the exact area that a plane cuts out of tets, and the narrowest and widest places along its
 // limbs relative to rest.
-//   const SectionExtremes sections = section_extremes(rest, positions, tets, stations);   // smallest_ratio 0.2: a
-//   candy wrapper
+//   // smallest_ratio 0.2: a candy wrapper
+//   const SectionExtremes sections = section_extremes(rest, positions, tets, stations);
 // Every layer counts: flesh that folds over the plane, or crosses it twice, is counted once per layer, and an inverted
 // tet like any other.
 #pragma once

@@ -1,7 +1,7 @@
 // The distance of a deformed mesh from a reference on the same vertices. The reference is an array, which may come from
 // FEM or from a file.
-//   const ErrorNorms error = ErrorMetrics{{mesh.rest, mesh.tets, prescribed, blended,
-//   bone_distance_m}}.measure(positions, reference);
+//   const ErrorMetrics metrics{{mesh.rest, mesh.tets, prescribed, blended, bone_distance_m}};
+//   const ErrorNorms error = metrics.measure(positions, reference);
 // A norm without anything to measure (no free vertex, no blended vertex) is NaN, and so is one of a frame that is not
 // finite.
 #pragma once

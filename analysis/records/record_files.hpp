@@ -67,8 +67,8 @@ std::string path_in(const std::string& folder, const std::string& name);
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
 
 // Reads back the record of a run, which may have been changed since it was written.
-//   const double total_s = from_record(folder + "/run.json", [](const auto& run) { return
-//   run.at("cost").at("total").get<double>(); });
+//   const auto total = [](const auto& run) { return run.at("cost").at("total").get<double>(); };
+//   const double total_s = from_record(folder + "/run.json", total);
 nlohmann::json read_record(const std::string& path);       // InputError if it is not valid JSON
 [[noreturn]] void refuse_record(const std::string& path);  // throws InputError
 

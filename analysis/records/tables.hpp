@@ -318,8 +318,8 @@ struct Column {
 // A CSV record that is declared once: a row is a plain struct, and one list of columns names, writes and reads its
 // members.
 //   struct Distance { int frame; double rms_mm, largest; };
-//   const Columns<Distance> distance_columns = MEMBER_COLUMNS(Distance, frame, rms_mm) +            // members under
-//   their own names
+//   // members under their own names
+//   const Columns<Distance> distance_columns = MEMBER_COLUMNS(Distance, frame, rms_mm) +
 //                                              Columns<Distance>{{"most_mm", &Distance::largest}};
 //   table_of(distance_columns, rows).write("distances.csv");
 //   const std::vector<Distance> rows = rows_of(distance_columns, read_csv("distances.csv"));

@@ -18,8 +18,8 @@ Interval fit_line(const std::vector<double>& x, const std::vector<double>& y, do
 Interval observed_order(const std::vector<double>& h, const std::vector<double>& error, double level = 0.95);
 
 // Where a cost that grows with size as a power reaches a limit.
-//   const PowerLawEnd end = power_law_end(vertices, ms_per_frame, 1e3 / 30.0);   // the size at which a frame takes 1 /
-//   30 s
+//   // the size at which a frame takes 1 / 30 s
+//   const PowerLawEnd end = power_law_end(vertices, ms_per_frame, 1e3 / 30.0);
 struct PowerLawEnd {
     double size = 0.0;      // at which the cost is at the limit
     bool beyond = false;    // all measured costs are below the limit, or all are above it

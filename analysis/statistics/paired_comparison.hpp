@@ -1,8 +1,9 @@
 // Which of two methods is nearer to a reference, decided by pairs over many poses and over several references, the
 // members of a family.
-//   const std::vector<MethodPair> pairs = compare_methods(poses);                          // each pair of methods,
-//   with its decision const std::vector<std::string> shared = letters({"vbd", "pbs", "delta_mush"}, pairs);  // for
-//   example "a", "ab", "b"
+//   // each pair of methods, with its decision
+//   const std::vector<MethodPair> pairs = compare_methods(poses);
+//   // for example "a", "ab", "b"
+//   const std::vector<std::string> shared = letters({"vbd", "pbs", "delta_mush"}, pairs);
 //
 // On each member and in each pose, the method with the smaller error wins. The pose is a tie where the two errors
 // differ by no more than U. U is a cautious estimate of the reference's own error: 0.6 of a distance of which the error

@@ -13,8 +13,7 @@ namespace analysis {
 
 // The key of a recorded value: the body, its motion, the deformer and the settings. A field that does not apply is
 // empty.
-//   const CaseKey key = {.body = "limb", .motion = "bend", .joint = "upper|forearm", .angle_deg = 90.0, .deformer =
-//   "pbs"};
+//   const CaseKey key = {.body = "limb", .motion = "bend", .angle_deg = 90.0, .deformer = "pbs"};
 // A field has the same name as its column of measurements.csv, its member of a case in claims.json, and its entry in
 // `of` of claims.toml.
 struct CaseKey {

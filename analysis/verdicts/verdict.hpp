@@ -115,18 +115,20 @@ struct Verdict {
     std::vector<std::string> runs = {};  // the folders on which the verdict rests
 };
 
-// Rule by rule:
-// cases        The dependent values of each case are averaged and compared with the threshold. Cases in which the
-// control `selected_by` does not
-//              fail are excluded. Inconclusive if a control has no record or misbehaves (a negative one must fail in at
-//              least half of its cases, or in at least five if it is `selected_by`; a positive one must hold in at
-//              least 95 %), and with fewer than five cases. Fails if at most half of the cases hold. Otherwise chance
-//              must reach as many with a probability below 1 %: the claim holds from 95 % on, and is mixed below. If
-//              chance reaches them more often, it is inconclusive from 95 % on, and not shown below.
-// single       The one number holds if its range lies within the threshold, fails if it lies outside, and is mixed
-// otherwise. printed      Holds if all printed values are consistent; otherwise inconsistent in print. Held-out values
-// are judged apart. Where they have no case of a control, the control of the other values is used. Planned scenes or
-// runs without a record make the verdict not computable. InputError for records with series of different lengths.
+// The verdict on a claim by its rule:
+//   cases     The dependent values of each case are averaged and compared with the threshold. Cases in which the
+//             control `selected_by` does not fail are excluded. The claim is inconclusive with fewer than five cases,
+//             and if a control has no record or misbehaves (a negative one must fail in at least half of its cases, or
+//             in at least five if it is `selected_by`; a positive one must hold in at least 95 %). It fails if at most
+//             half of the cases hold. Otherwise chance must reach as many with a probability below 1 %: the claim holds
+//             from 95 % on, and is mixed below. If chance reaches them more often, the claim is inconclusive from 95 %
+//             on, and not shown below.
+//   single    The claim holds if the range of its one number lies within the threshold, fails if it lies outside, and
+//             is mixed otherwise.
+//   printed   The claim holds if all printed values are consistent; otherwise it is inconsistent in print.
+// Held-out values are judged apart. Where they have no case of a control, the control of the other values is used.
+// Planned scenes or runs without a record make the verdict not computable. InputError for records with series of
+// different lengths.
 Verdict judge(const Claim& claim, const Records& records);
 
 // The kind of the verdict by cases on these values alone, without all else that reports show. A control that has no

@@ -37,9 +37,10 @@ Positions sample_points(const BoneCapsule& capsule, int samples = 1);
 // How the density of a smooth attachment decreases from 1 on the middle of the axis to 0 on the capsule's surface:
 // across the bone by a function of s = rho / R, along it by a step over `ends` radii R at each end (at most half of the
 // length).
-//   biweight: (1 - s^2)^2 (Tukey's; Beaton, Tukey, Technometrics 16, 1974), the cubic step 3 t^2 - 2 t^3, continuously
-//   differentiable wendland: (1 - s)^4 (4 s + 1) and the step 6 t^5 - 15 t^4 + 10 t^3, twice so (H. Wendland, Adv.
-//   Comput. Math. 4, 1995)
+//   biweight: (1 - s^2)^2 (Tukey's; Beaton, Tukey, Technometrics 16, 1974), the cubic step 3 t^2 - 2 t^3,
+//             continuously differentiable
+//   wendland: (1 - s)^4 (4 s + 1) and the step 6 t^5 - 15 t^4 + 10 t^3, twice continuously differentiable (H. Wendland,
+//             Adv. Comput. Math. 4, 1995)
 enum class AttachmentKernel { biweight, wendland };
 
 // The relative density at a point [m]; 0 outside the capsule. `ends` > 0.
@@ -66,10 +67,10 @@ struct CapsuleSprings {
 //   smooth    in the capsules, their density decreasing to zero at the capsules' surface (smooth_density)
 //   embedded  in the capsules, of one density: bones that are rigid capsules in the flesh
 //   held      as smooth, and stiff ones (rigid_spring_factor over the square of rigid_core_radius) throughout the tets
-//   that one bone alone
-//             moves, as a skull holds a head: its weight is above weight_alone at all four corners. The weights are the
-//             artist's, or those of Eq. 2 smoothed over the mesh's edges. Of a model from a rigged file, a separate
-//             part in which no springs span a plane follows linear blend skinning by the artist's weights
+//             that one bone alone moves, as a skull holds a head: its weight is above weight_alone at all four corners.
+//             The weights are the artist's, or those of Eq. 2 smoothed over the mesh's edges. Of a model from a rigged
+//             file, a separate part in which no springs span a plane follows linear blend skinning by the artist's
+//             weights
 enum class SpringPlacement { smooth, embedded, held };
 inline constexpr double rigid_spring_factor = 1e4, rigid_core_radius = 0.35, weight_alone = 0.99;
 

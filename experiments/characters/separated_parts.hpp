@@ -16,8 +16,7 @@ namespace pbs {
 // one piece of flesh, although the artist moves them independently of each other. Two points of the artist's surface
 // are *apart* if
 // - the skeleton moves one away from the other by more than `least_apart` of the body's diagonal, in one of the poses
-// or when a joint turns
-//   by 30 degrees, and
+//   or when a joint turns by 30 degrees, and
 // - the way between them along the surface is more than three times as long as the straight one, or there is none.
 // The second condition keeps a joint whole, at which the skin is continuous.
 class SkinParts {

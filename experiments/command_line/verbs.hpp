@@ -54,8 +54,8 @@ std::string describe(const CLI::App& app);
 // - for names that differ in several numbers,
 // - for a folder with several sequences,
 // - for a number that is missing between the first and the last of a sequence, by its own smallest step: every fifth
-// frame is no gap, if
-//   there are three or more. A last step that is shorter than all others, which are equal, is a warning.
+//   frame is no gap, if there are three or more. A last step that is shorter than all others, which are equal, is a
+//   warning.
 struct FrameSearch {
     bool any_step = false;     // gaps are no error
     bool of_surfaces = false;  // in a folder the files of surfaces count, instead of those of tets

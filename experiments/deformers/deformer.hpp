@@ -147,10 +147,10 @@ private:
 };
 
 // A deformer to be made: its kind, its options, and its name in the records.
-//   DeformerSpec spec = default_spec("fem");                       of registry.hpp: with the default options of the
-//   kind options_of<FemOptions>(spec).element_order = 1;                if the caller knows the kind spec.weights =
-//   pbs::WeightKind::diffused;                      LBS, delta mush ... with smooth weights on the same character if
-//   (const auto* pbs = options_if<pbs::PbsOptions>(spec)) ...   for a deformer of any kind
+//   DeformerSpec spec = default_spec("fem");                       // of registry.hpp, with the kind's default options
+//   options_of<FemOptions>(spec).element_order = 1;                // if the caller knows the kind
+//   spec.weights = pbs::WeightKind::diffused;                      // LBS, delta mush, ... with smooth weights
+//   if (const auto* pbs = options_if<pbs::PbsOptions>(spec)) ...   // for a deformer of any kind
 struct DeformerSpec {
     std::string name;                 // a kind, or the name of a [[fem]] table
     std::string kind;                 // registered kind

@@ -1,11 +1,13 @@
 // A moving surface as a .glb file that Blender and other programs show: the first frame as a mesh, every other frame as
 // a morph target.
-//   GlbWriter writer("pbs.glb", "hero", triangles);   // or, for a surface that does not look alike everywhere, (...,
-//   look, materials) for (...) writer.add_frame(time_s, points); writer.write();
+//   // or, for a surface that does not look alike everywhere, (..., look, materials)
+//   GlbWriter writer("pbs.glb", "hero", triangles);
+//   for (...) writer.add_frame(time_s, points);
+//   writer.write();
 // The points of the frames wait in a temporary file next to the .glb file. The memory has the weights of the morph
 // targets alone, a number for each two frames.
-//   writer.write(&skin);   // for a surface with a skin: the first frame is its rest shape, and the others are shapes
-//   that are added to it
+//   // for a surface with a skin: the first frame is its rest shape, and the others are shapes that are added to it
+//   writer.write(&skin);
 #pragma once
 
 #include "experiments/rigs/rig.hpp"

@@ -32,8 +32,7 @@ struct JointBelow {
 // - at the joint below its own joint, whether that joint is a bone or not;
 // - where several are below, in their middle, or at the one that moves most if they lie on opposite sides;
 // - where none is below, at nine tenths of the way to the farthest point that it moves, in the direction of the middle
-// of these points, or
-//   of its parent if that middle is at the joint.
+//   of these points, or of its parent if that middle is at the joint.
 class Tails {
 public:
     Tails(const Rig& rig, RiggedBody& body)

@@ -44,8 +44,7 @@ std::vector<BoundVertex> bound_vertices(const pbs::Character& character);
 // The rendered surface of a run's frames and the tets that carry it, for programs that move the surface with the tets:
 //   surface_rest.vtp   the surface at rest [m]
 //   embedding.csv      the tet that carries each of its points, with the point's barycentric coordinates, and the share
-//   by which its
-//                      joints carry it instead (ArtistSkin::of_joints)
+//                      by which its joints carry it instead (ArtistSkin::of_joints)
 struct EmbeddedPoint {
     int point = 0, tet = 0;
     std::array<double, 4> barycentric = {};  // their sum is one; for a point outside its tet some are negative
@@ -62,7 +61,8 @@ void write_surface(const pbs::EmbeddedSurface& surface, const pbs::TetMesh& mesh
 
 // distances.csv: the distances between the points that two deformers give. One row per written frame and pair of
 // deformers.
-//   DistanceRecord record;   record.add(frame, time_s, "pbs", "mesh", positions);
+//   DistanceRecord record;
+//   record.add(frame, time_s, "pbs", "mesh", positions);
 //   record.table().write("distances.csv");
 struct DeformerDistance {
     int frame = 0;

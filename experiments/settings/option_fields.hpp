@@ -1,8 +1,9 @@
 // The fields of a struct of options. Each is declared once, with its key in a scene, its default, range, unit and
 // meaning, and its name in a record.
 //   static const auto fields = OptionFields<pbs::XpbdOptions>("xpbd")
-//                                  .add("young_pa", &pbs::XpbdOptions::young_pa, {.unit = "Pa", .range = {above_zero},
-//                                  .meaning = "..."}) .record("substeps", &pbs::XpbdOptions::substeps);
+//                                  .add("young_pa", &pbs::XpbdOptions::young_pa,
+//                                       {.unit = "Pa", .range = {above_zero}, .meaning = "..."})
+//                                  .record("substeps", &pbs::XpbdOptions::substeps);
 //   fields.keys()               the keys, for a schema; the defaults are those of pbs::XpbdOptions{}
 //   fields.read(values, "xpbd") the options as a scene states them
 //   fields.json(options)        all fields by name, for a record

@@ -1,7 +1,8 @@
 // Settings of a study's run as JSON: every member of a struct under its own name.
-//   RECORD_SETTINGS(SagCase, vertices, k_stretch, iterations)                         // defines to_json(const
-//   SagCase&) RECORD_SETTINGS_AND(SagCase, .constant("poisson", 0.45), vertices, k_stretch)     // and values of
-//   OptionFields that are no members
+//   // defines to_json(const SagCase&)
+//   RECORD_SETTINGS(SagCase, vertices, k_stretch, iterations)
+//   // and values of OptionFields that are no members
+//   RECORD_SETTINGS_AND(SagCase, .constant("poisson", 0.45), vertices, k_stretch)
 // std::logic_error when it is first called, unless all members are listed: `--resume` must notice each change.
 #pragma once
 

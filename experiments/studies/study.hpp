@@ -97,12 +97,13 @@ struct StudyPlan {
 //   name = "{body}_walk"             # of the run; {body} in any text is the name of the case's body
 //   bodies = ["human", "lady"]       # a case for each one that is installed; or body = "human"
 //   scene = "human_01_01"            # and overrides = ["motion.duration_s=2.5"], as `pbskin run SCENE --set KEY=VALUE`
-//   quick_s = 1.5                    # expected cost; a case without quick_s is no part of the default form, without
-//   full_s not of --full full_s = 4.0 each = [{ name = "a" }, ...]     # a case for each entry, with these keys and
-//   those of the case quick = { k_stretch = [0.1] }    # keys for one form, or for one of the bodies: fewer rows, each
-//   measured as in the full form.
-//                                    # They replace the case's keys; only `overrides` are added to those of the case,
-//                                    as in `each`.
+//   quick_s = 1.5                    # expected cost; a case without quick_s is no part of the default form, and one
+//                                    # without full_s is no part of --full
+//   full_s = 4.0
+//   each = [{ name = "a" }, ...]     # a case for each entry, with these keys and those of the case
+//   quick = { k_stretch = [0.1] }    # keys for one form, or for one of the bodies: fewer rows, each measured as in the
+//                                    # full form. They replace the case's keys; only `overrides` are added to those of
+//                                    # the case, as in `each`.
 // The further keys are the study's own. A key that nothing reads is an error.
 class StudyCase {
 public:

@@ -1,7 +1,7 @@
 // pbskin try MODEL --bake: correctives that are learned from the character's own reference, for scenes and for game
 // engines.
-//   const nlohmann::json facts = bake_correctives(scene, "results/hero", options);   // writes
-//   results/hero/frames/correctives.toml and .glb
+//   // writes results/hero/frames/correctives.toml and correctives.glb
+//   const nlohmann::json facts = bake_correctives(scene, "results/hero", options);
 #pragma once
 
 #include "experiments/characters/character.hpp"
@@ -29,8 +29,8 @@ pbs::Weights surface_weights(const pbs::Character& character);
 // points), and fits correctives to them, except for every third frame of the motion. Writes
 //   frames/correctives.toml  the correctives of the tets, for the deformer of this name
 //   frames/correctives.glb   the surface with its skin (surface_weights), the correctives of the surface as morph
-//   targets, and the motion.
-//                            The surface is fitted by itself, so that targets and skin give its correctives exactly
+//                            targets, and the motion. The surface is fitted by itself, so that targets and skin give
+//                            its correctives exactly
 // Facts: the number of poses that were `trained` and `held_out`, of `modes` of the tets, and of `targets` of the
 // surface; `seconds`, wall time; and the distance of the skin from the reference in the frames held out, root mean
 // square on a body of 1.7 m: `within` the range of the trained features and `beyond` it, each with `frames`, `lbs_mm`

@@ -60,45 +60,42 @@ std::string earlier_trial_scene(const TrialOptions& options);
 // move away from their parents by more than 10 % or towards them (stretched_bones: bone, change_pct, frame; then volume
 // is not judged), the run's warnings, the gravest first, and
 //   volume        per deformer the lowest and highest change of the volume over the frames [%], and the most inverted
-//   tets in a frame notes         of the run: warnings beyond the third one, and where nothing is wrong deforms whether
-//   some flesh changes its shape in some frame joints        the two joints (of a bone and its parent) at which lbs
-//   loses most volume, with the mean change there of lbs and pbs
-//                 [% of the joints' volume]
+//                 tets in a frame
+//   notes         of the run: warnings beyond the third one, and where nothing is wrong
+//   deforms       whether some flesh changes its shape in some frame
+//   joints        the two joints (of a bone and its parent) at which lbs loses most volume, with the mean change there
+//                 of lbs and pbs [% of the joints' volume]
 //   nearest       at the joints, or over the body where there is none (place): the methods by the median of their
-//   errors, the least first
-//                 (methods: deformer, median_pct, and nearest_in, the number of frames in which it has the least
-//                 error), over so many frames, in which all have an error and one of them is at least 0.01 %. Null
-//                 without a reference
+//                 errors, the least first (methods: deformer, median_pct, and nearest_in, the number of frames in which
+//                 it has the least error), over so many frames, in which all have an error and one of them is at least
+//                 0.01 %. Null without a reference
 //   doubtful_reference  why no method is called nearest: lag, where a bone turns by more than 5 degrees against flesh
-//   that it alone moves;
-//                 far_from_all, where the median error of every method is above 50 %; null: there is no doubt
+//                       that it alone moves; far_from_all, where the median error of every method is above 50 %;
+//                       null: there is no doubt
 //   inverting     the deformers with inverted tets: the most in a frame, their share of the tets [%], and whether the
-//   method is excluded
-//                 from `nearest` (is_excluded), because it has more than lbs by 0.5 % of the tets in more than a tenth
-//                 of the frames
+//                 method is excluded from `nearest` (is_excluded), because it has more than lbs by 0.5 % of the tets in
+//                 more than a tenth of the frames
 //   skin          distance of the skin from the reference on a body whose largest extent is 1.7 m, rms over the frames,
-//   under lbs (lbs_mm)
-//                 and pbs (pbs_mm); the share of lbs's that pbs removes (removed_pct); null without a reference, and
-//                 where lbs's is below 0.01 % of the body's diagonal
+//                 under lbs (lbs_mm) and pbs (pbs_mm); the share of lbs's that pbs removes (removed_pct); null without
+//                 a reference, and where lbs's is below 0.01 % of the body's diagonal
 //   widest_frame  the frame in which the surfaces of pbs and lbs are farthest apart; null where they never differ
 //   frame_ms      median time of a frame, per deformer
 //   error_bar     of the reference: the number of frames in which its own error is bounded, of how many, the largest
-//   bound at the joints
-//                 [%] and the wall time of the further solutions [s]; null without an error bar
+//                 bound at the joints [%] and the wall time of the further solutions [s]; null without an error bar
 //   reference_lag the largest angle between a bone and the flesh that it alone moves, in the reference
-//   (largest_turn_deg), the bone and the
-//                 frame, and in how many of the compared frames 1 % of the body or more lag by more than 5 degrees
-//                 (lagging_frames, frames); null without a reference, and where no bone moves a tet alone
+//                 (largest_turn_deg), the bone and the frame, and in how many of the compared frames 1 % of the body or
+//                 more lag by more than 5 degrees (lagging_frames, frames); null without a reference, and where no bone
+//                 moves a tet alone
 //   reference_frames  what the budget of time allowed: frames of the motion, solved, kept (solved by an earlier trial),
-//   cpu_seconds,
-//                 budget_s, contact, not_reached [{frame, cpu_seconds, bone that held it up}]; null without a budget
+//                     cpu_seconds, budget_s, contact, not_reached [{frame, cpu_seconds, bone that held it up}]; null
+//                     without a budget
 //   interrupted   whether the trial was interrupted and has only what was finished by then
 //   from_artist   where the surface carried by the tets under lbs is farthest from the artist's: largest_pct of the
-//   model's size, frame,
-//                 the bones of surface and flesh there, and the gap between them at rest; null: not compared
+//                 model's size, frame, the bones of surface and flesh there, and the gap between them at rest; null:
+//                 not compared
 //   correctives   what `--bake` learned (bake.hpp); not there without it
 //   control       the files of the surface by the format's own skinning; null: the model has no joints and so no
-//   skinning
+//                 skinning
 // An InputError where the run's records are missing or damaged.
 nlohmann::json trial_facts(const std::string& folder);
 

@@ -1,7 +1,7 @@
 // The volume constraint of a region, a set of tets: the sum of their volumes is kept,
-//   C(p) = sum of V_t - V0 = sum over the triangles (a, b, c) of the region's surface of (a - o) . (b - a) x (c - a) /
-//   6 - V0,
-// by the divergence theorem: vertices inside the region do not enter it, and it holds for any origin o.
+//   C(p) = sum_t V_t - V0 = sum_(a, b, c) (a - o) . (b - a) x (c - a) / 6 - V0,
+// where (a, b, c) are the triangles of the region's surface, by the divergence theorem. Vertices inside the region do
+// not enter it, and it holds for any origin o.
 //   const auto region = make_region_volume_constraint<double>(surface, rest, 1.0);
 //   project(region, w, p, g);
 // Tets within the region may exchange volume. Source: the volume constraint of closed meshes, M. Mueller et al.,

@@ -1,6 +1,6 @@
 // The energy of elastic flesh on linear tets that its bones hold, as sums over tets and vertices:
-//   E(x) = sum_tets [ sum_{i<j} w_ij / 2 |x_i - x_j|^2 + kappa / 2 (6 V(x) - d)^2 ] + sum_i a_i / 2 |x_i - c_i|^2 +
-//   constant.
+//   E(x) = sum_tets [ sum_{i<j} w_ij / 2 |x_i - x_j|^2 + kappa / 2 (6 V(x) - d)^2 ]
+//          + sum_i a_i / 2 |x_i - c_i|^2 + constant.
 // V(x) is the signed volume of a tet. w_ij = -mu V0 grad N_i . grad N_j - sum_s k_s beta_i beta_j (FleshMaterial,
 // bone_springs.hpp), kappa = lambda / (36 V0) and d = 6 alpha V0. Only the centres c_i depend on the pose. |F|^2 is
 // quadratic and V(x) is affine in each single vertex, so that the energy along one vertex is exactly quadratic.

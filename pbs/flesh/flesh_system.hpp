@@ -42,8 +42,9 @@ struct HeldFleshOptions {
 
 // Elastic flesh that the bones hold, with what a minimiser of its energy keeps for all frames: the energy, its
 // Laplacian's factor, and weights for an initial guess.
-//   const HeldFlesh flesh(mesh, bone_springs(character, SpringPlacement::smooth, {}).springs, bones, {.poisson =
-//   0.45}); flesh.hold().centres(pose, centres);
+//   const BoneSprings springs = bone_springs(character, SpringPlacement::smooth, {}).springs;
+//   const HeldFlesh flesh(mesh, springs, bones, {.poisson = 0.45});
+//   flesh.hold().centres(pose, centres);
 class HeldFlesh {
 public:
     // InputError: a tet without volume, poisson outside [0, 1/2), no spring inside the tets, or the module of CHOLMOD

@@ -10,12 +10,12 @@
 // s_i of S to y_i with
 //   y_i^2 - s_i y_i + kappa = 0,   y_1 y_2 y_3 = 1.
 //   1. The eigenvalues of a symmetric 3 x 3 matrix are q + 2 p cos(phi + 2 pi k / 3) (O. K. Smith, Comm. ACM 4(4),
-//   1961). Where two are
-//      nearly equal their difference loses half of the digits. g is symmetric in them, so that the result does not.
+//      1961). Where two are nearly equal their difference loses half of the digits. g is symmetric in them, so that the
+//      result does not.
 //   2. y_3 is found by Newton's method between bounds. kappa = y_3 (s_3 - y_3), and y_1 and y_2 are the larger roots.
 //   3. No eigenvector is needed: g is a polynomial in S by Newton's divided differences. The equation of y makes them
-//        [s_i, s_j] = P_ij / (P_ij - kappa), P_ij = y_i y_j,   and   [s_1, s_2, s_3] = -kappa / product of all (P_ij -
-//        kappa),
+//        [s_i, s_j] = P_ij / (P_ij - kappa), P_ij = y_i y_j,
+//        [s_1, s_2, s_3] = -kappa / product of all (P_ij - kappa),
 //      so that nothing is divided by a difference of eigenvalues.
 namespace pbs {
 namespace {

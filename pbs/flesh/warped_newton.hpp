@@ -3,8 +3,8 @@
 // is spread over the body, and a sweep what a few tets resist, such as volumes that blending has crushed, at which a
 // step computed from rest would overshoot.
 //   WarpedNewton<float> solver(mesh, energy, factor, options);
-//   WarpedNewtonSummary summary = solver.minimise(centres, rotations, x);   // x: the initial guess in, the last
-//   iterate out
+//   // x: the initial guess in, the last iterate out
+//   WarpedNewtonSummary summary = solver.minimise(centres, rotations, x);
 // The energy of the result is at most that of the initial guess, except for rounding: a step after which the energy is
 // higher is taken back and shortened.
 #pragma once

@@ -4,8 +4,8 @@
 // of E(x) + sum_i m_i / 2 |x_i - y_i|^2, the proximal point of y, after `iterations_per_step` passes over all
 // constraints. Its fixed point is a minimum of E, for every mass and step.
 //   XpbdNeoHookean<float> solver(mesh, flesh, options);
-//   XpbdNeoHookeanSummary summary = solver.minimise(targets, x);   // x: the initial guess in, the shape after the last
-//   pass out
+//   // x: the initial guess in, the shape after the last pass out
+//   XpbdNeoHookeanSummary summary = solver.minimise(targets, x);
 //
 // XPBD as published does not converge to this minimum: the multipliers settle within a few passes, with the forces of
 // the directions that the gradients had on the way, and the shape then stays where it is (Y. Chen et al.,

@@ -5,13 +5,12 @@
 // 4 matrix K(M), and the eigenvector is the quaternion of R (B. K. P. Horn, J. Opt. Soc. Am. A 4, 1987); s_1 >= s_2 >=
 // s_3 are the singular values of M.
 //   1. lambda is the largest root of det(K - lambda 1) = lambda^4 - 2 |M|^2 lambda^2 - 8 det(M) lambda + |M|^4 - 4 |cof
-//   M|^2. All roots are
-//      real, so that Laguerre's iteration from the bound sqrt(3) |M| >= lambda descends to it with third order.
+//      M|^2. All roots are real, so that Laguerre's iteration from the bound sqrt(3) |M| >= lambda descends to it with
+//      third order.
 //   2. adj(K - lambda 1) is a multiple of q q^T: its largest column is the quaternion.
 //   3. Newton's method for max tr(R^T M) removes what the small differences of step 1 have lost. With R^T M = S, the
-//   correction w solves
-//      (tr(S) 1 - (S + S^T) / 2) w = (S_32 - S_23, S_13 - S_31, S_21 - S_12). It is of third order as well, since S is
-//      symmetric at the end.
+//      correction w solves (tr(S) 1 - (S + S^T) / 2) w = (S_32 - S_23, S_13 - S_31, S_21 - S_12). It is of third order
+//      as well, since S is symmetric at the end.
 // The last correction proves the result: where the matrix of step 3 is positive definite and w vanishes, R is a local
 // maximum, and max tr(R^T M) has no local maximum other than the largest eigenvalue. Its determinant (s_1 + s_2) (s_1 +
 // s s_3) (s_2 + s s_3) of M / |M|, s = sign(det M), is zero where the nearest rotation is not unique: rank one, rank

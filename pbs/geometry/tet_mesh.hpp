@@ -63,9 +63,9 @@ Eigen::VectorXd lumped_areas(const Positions& points, const Triangles& triangles
 double fan_volume(const Positions& points, const Triangles& triangles);
 
 // Uniform red refinement: every tet into eight, every edge halved; the body stays the same polyhedron.
-//   const Refinement fine = refine(mesh);                            // fine.mesh: the vertices of `mesh` first, then
-//   the midpoints const Positions carried = prolongated(positions, fine.parents);  // a field of the coarse vertices on
-//   the fine ones
+//   // fine.mesh: the vertices of `mesh` first, then the midpoints
+//   const Refinement fine = refine(mesh);
+//   const Positions carried = prolongated(positions, fine.parents);  // a field of the coarse vertices on the fine ones
 // The four tets at the corners are similar to their parent. The octahedron between them is cut along its shortest
 // diagonal (of equal ones the first of 01-23, 02-13, 03-12, numbers being the parent's corners; S. Zhang, Houston
 // Journal of Mathematics 21, 1995; A. Liu and B. Joe, Mathematics of Computation 65, 1996), which bounds the mean ratio

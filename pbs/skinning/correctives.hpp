@@ -1,9 +1,10 @@
 // Correctives: shapes that are added to the rest shape before linear blend skinning, learned from solved poses (P. G.
 // Kry, D. L. James, D. K. Pai: EigenSkin, SCA 2002, in a linear form). They give the shape of a reference at about the
 // price of LBS.
-//   const Correctives correctives = fit_correctives(skeleton, rest, weights, samples);   // solved once, from reference
-//   shapes CorrectiveSkinning<float> skinning(correctives, rest, weights); skinning.apply(pose, posed); // for every
-//   pose
+//   // solved once, from reference shapes
+//   const Correctives correctives = fit_correctives(skeleton, rest, weights, samples);
+//   CorrectiveSkinning<float> skinning(correctives, rest, weights);
+//   skinning.apply(pose, posed);                                                         // for every pose
 //
 //   x_v = sum_j w_jv P_j (X_v + d_v),   d_v = sum_j U_jv c_j,   c_j = W_j f_j(pose)
 //

@@ -4,17 +4,17 @@
 //   const DirectDeltaMush mush(mesh, weights, {.iterations = 10});
 //   mush.apply(pose, posed);
 // With rest positions u_k, in homogeneous coordinates, weights w_kj and rigid transforms M_j:
-//   B = (1 + lambda L D^-1)^-p, C = (1 + kappa L D^-1)^-p                      L: Laplacian of the mesh, D: its
-//   diagonal Psi_ij = sum_k b_ki w_kj u_k u_k^T,   w'_ij = sum_k c_ki w_kj,             sum_j Psi_ij = (. p_i; p_i^T 1)
+//   B = (1 + lambda L D^-1)^-p, C = (1 + kappa L D^-1)^-p               L: Laplacian of the mesh, D: its diagonal
+//   Psi_ij = sum_k b_ki w_kj u_k u_k^T,   w'_ij = sum_k c_ki w_kj,      sum_j Psi_ij = (. p_i; p_i^T 1)
 //   Omega_ij = (1 - alpha) Psi_ij + alpha w'_ij (p_i p_i^T, p_i; p_i^T, 1)     10 numbers per vertex and bone
-//   sum_j M_j Omega_ij = (Q_i, q_i; p_i^T, 1),   R_i = the rotation nearest to Q_i - q_i p_i^T,   v_i = q_i + R_i (u_i
-//   - p_i)
+//   sum_j M_j Omega_ij = (Q_i, q_i; p_i^T, 1)
+//   R_i = the rotation nearest to Q_i - q_i p_i^T,   v_i = q_i + R_i (u_i - p_i)
 // alpha = 0 is nearest to delta mush: q_i is then the smoothed LBS. alpha = 1 moves p_i by LBS with the smoothed
-// weights w'; the rotations are those of the limit alpha -> 1, since they do not depend on alpha. Departures that
-// change no result: Psi_ij is stored about p_i and not about the origin, so that floats lose no digits; SVD is replaced
-// by nearest_rotation.hpp, which unlike U V^T is a rotation for every matrix. Departures that do: L is the Laplacian of
-// the tets' edges with unit weights, as in delta_mush.hpp; entries of a weight below `negligible` are dropped, and the
-// others are scaled to a sum of one.
+// weights w'; the rotations are those of the limit alpha -> 1, since they do not depend on alpha.
+// Departures that change no result: Psi_ij is stored about p_i and not about the origin, so that floats lose no digits;
+// SVD is replaced by nearest_rotation.hpp, which unlike U V^T is a rotation for every matrix. Departures that do: L is
+// the Laplacian of the tets' edges with unit weights, as in delta_mush.hpp; entries of a weight below `negligible` are
+// dropped, and the others are scaled to a sum of one.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"

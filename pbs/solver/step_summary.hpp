@@ -46,8 +46,9 @@ double largest(const Residuals& residuals);
 // All steps of a deformer up to a frame, as one: the last step with the worst outcome of all. A step between two frames
 // that did not converge or was not finite is thus recorded with the frame that follows it, even if the deformer has
 // recovered.
-//   FrameStep frame;  for (...) frame.add(deformer.advance(poses[step], dt_s), step);  record(frame.summary(),
-//   frame.worst_step());
+//   FrameStep frame;
+//   for (...) frame.add(deformer.advance(poses[step], dt_s), step);
+//   record(frame.summary(), frame.worst_step());
 class FrameStep {
 public:
     // step: number of the step in the motion, from 0.

@@ -1,11 +1,11 @@
 // Modules: parts of the program in shared objects of their own, loaded on first use, because the library behind them is
 // slow to load (deal.II alone brings some 200 shared objects) and most runs never need it.
-//   using Factor = void(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order, CholeskyFactor&
-//   factor); load_module("pbskin_cholmod").function<Factor>("pbskin_cholmod_ordered_factor")(lower, order, factor);
+//   using Factor = void(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& order,
+//                       CholeskyFactor& factor);
+//   load_module("pbskin_cholmod").function<Factor>("pbskin_cholmod_ordered_factor")(lower, order, factor);
 // lib<name>.so is looked for in the folder named by the environment variable PBSKIN_MODULES, otherwise next to the
-// executable's folder in
-// ../lib (a build) and ../lib/pbskin (an installation). A module that is not there is an InputError saying where it was
-// looked for.
+// executable's folder in ../lib (a build) and ../lib/pbskin (an installation). A module that is not there is an
+// InputError saying where it was looked for.
 #pragma once
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // A file that is opened once, however many readers look at it.
-//   const SourceFile file("arm.vtu");  if (is_surface_file("arm.vtu")) ... read_surface("arm.vtu") ...   // one opening
-//   in all
+//   // one opening in all
+//   const SourceFile file("arm.vtu");  if (is_surface_file("arm.vtu")) ... read_surface("arm.vtu") ...
 #pragma once
 
 #include "pbs/system/files.hpp"

@@ -1,7 +1,7 @@
 // The pairs of a surface's nodes and triangles, and of its edges, that can come within a range, for contact.
 //   const NearPairs near(space, range_m);
-//   for (const NearPair& pair : near.at(displacement)) closest_points(pair.kind, near.points_of(near.nodes_of(pair),
-//   displacement))
+//   for (const NearPair& pair : near.at(displacement))
+//       closest_points(pair.kind, near.points_of(near.nodes_of(pair), displacement));
 #pragma once
 
 #include "reference_fem/assembly.hpp"

@@ -48,7 +48,7 @@ public:
 // The strain energy of the flesh by any constitutive law: Pi(u) = sum over tets and quadrature points of w psi(I + grad
 // u).
 //   ElasticPotential flesh(space, Model::stable_neo_hookean, lame_parameters(young_pa, poisson),
-//   Formulation::mean_dilatation);
+//                          Formulation::mean_dilatation);
 // With mean dilatation (J. Nagtegaal, D. Parks, J. Rice, CMAME 4, 1974; J. Simo, R. Taylor, K. Pister, CMAME 51, 1985)
 // a tet's volume term is V lambda / 2 mean(theta)^2: one volume constraint per tet, which on P2 is the P2-P0 element.
 // On P1 theta is constant and both agree. Quadrature has 1 point on P1 and 6 on P2, exact to degree 3: for the linear

@@ -78,7 +78,7 @@ VerificationRows cantilever_rows(const Effort& effort)
 // as many volumes to keep as displacements to keep them with, and lock.
 //   bending: the cantilever of cantilever.cpp, against Timoshenko's beam
 //   torsion: the bar of torsion.cpp; Saint-Venant's solution changes no volume, so its torque does not depend on
-//   Poisson's ratio
+//            Poisson's ratio
 // Only formulations for nearly incompressible materials (reference_fem/options.hpp) have bounds.
 
 namespace locking {

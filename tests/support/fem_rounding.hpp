@@ -6,17 +6,19 @@
 //   energy           |E(u + e) - E(u)| <= |u|_K |e|_K + |e|_K^2 / 2, with |u|_K = sqrt(2 E);
 //   total force      of the residual along one axis: |t . r| <= sqrt(nodes) |r|, t a unit translation of all nodes;
 //   stress at a vertex. On a tet of P1 or P2, strains are affine, and an affine f has max f^2 <= (20 / V) integral of
-//   f^2 (the least
-//                    eigenvalue of a tet's P1 mass matrix is V / 20). Since e^T K e is the integral of 2 mu |eps|^2 +
-//                    lambda (div e)^2, |stress of e| <= sqrt(20 / V) (sqrt(2 mu) + sqrt(3 lambda)) |e|_K.
+//                    f^2 (the least eigenvalue of a tet's P1 mass matrix is V / 20). Since e^T K e is the integral of 2
+//                    mu |eps|^2 + lambda (div e)^2,
+//                    |stress of e| <= sqrt(20 / V) (sqrt(2 mu) + sqrt(3 lambda)) |e|_K.
 // With taylor_hood the unknowns include pressures, in units that make all entries of K of one size, and K is
 // indefinite; the same holds for the norm of its two definite blocks, since e^T diag(1, -1) K e = e^T diag(1, -1) r.
 //
 // What the reference integrates over its tets goes through so many roundings (rounding_error.hpp):
 //   Jacobian J of a tet: an entry of its inverse by cofactors goes through a dozen roundings, which cond(J) magnifies;
-//   its determinant goes through fewer. Shape function: its value or gradient on the unit tet goes through eight
-//   roundings, of the quadrature point and of the polynomial. Entry of a vector or matrix: there are nine roundings of
-//   products, and the sums over quadrature points and over tets about a node.
+//   its determinant goes through fewer.
+//   Shape function: its value or gradient on the unit tet goes through eight roundings, of the quadrature point and of
+//   the polynomial.
+//   Entry of a vector or matrix: there are nine roundings of products, and the sums over quadrature points and over
+//   tets about a node.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"

@@ -1,6 +1,7 @@
 // The message with which bad input is refused, for tests.
-//   EXPECT_EQ(test_support::refusal_of([&] { read_csv("m.csv"); }), "m.csv: the file is empty: expected a line of
-//   column names"); test_support::expect_refused("expected a number", [&] { table.number(1, "b"); });
+//   EXPECT_EQ(test_support::refusal_of([&] { read_csv("m.csv"); }),
+//             "m.csv: the file is empty: expected a line of column names");
+//   test_support::expect_refused("expected a number", [&] { table.number(1, "b"); });
 #pragma once
 
 #include "pbs/geometry/input_error.hpp"

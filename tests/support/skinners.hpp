@@ -1,8 +1,8 @@
 // The skinners, each called in the same way, and how far rounding may move their positions: for tests that hold for all
 // of them.
 //   const pbs::Positions posed = test_support::Delta<float, true>::applied(limb, limb.pose, {.iterations = 3});
-//   EXPECT_LT((posed - expected).rowwise().norm().maxCoeff(), test_support::Delta<float,
-//   true>::packed_error({.iterations = 3}));
+//   const double error = test_support::Delta<float, true>::packed_error({.iterations = 3});
+//   EXPECT_LT((posed - expected).rowwise().norm().maxCoeff(), error);
 #pragma once
 
 #include "pbs/geometry/topology.hpp"
@@ -53,12 +53,12 @@ inline double rotation_gap(const Eigen::Matrix3d& covariance)
 
 // How far rounding may move a mushed position [m] of coordinates up to `farthest`, with the default step.
 //   Smoothing: each mean of n neighbours goes through n + 4 roundings, and means do not amplify those before. Without a
-//   motion, the blend and the rest shape are smoothed in the same roundings. Rotation: the covariance is a sum of n
-//   products of smoothed edges, whose ends are in error by smoothing on both sides, and its decomposition rounds some
-//   30 times. An error E of the covariance turns its rotation by at most 2 |E| / (s2 + s3), with s2 and s3 its smaller
-//   singular values, the last with the sign of its determinant (C. Kenney, A. J. Laub, SIAM J. Matrix Anal. Appl. 12,
-//   1991), which moves the vertex by that share of its detail. Sum: the detail, its rotated coordinates and their sum
-//   go through six roundings.
+//   motion, the blend and the rest shape are smoothed in the same roundings.
+//   Rotation: the covariance is a sum of n products of smoothed edges, whose ends are in error by smoothing on both
+//   sides, and its decomposition rounds some 30 times. An error E of the covariance turns its rotation by at most 2 |E|
+//   / (s2 + s3), with s2 and s3 its smaller singular values, the last with the sign of its determinant (C. Kenney, A.
+//   J. Laub, SIAM J. Matrix Anal. Appl. 12, 1991), which moves the vertex by that share of its detail. Sum: the detail,
+//   its rotated coordinates and their sum go through six roundings.
 template <class Scalar>
 double mush_error(const pbs::TetMesh& mesh, const Positions& blended, bool moved, double farthest,
                   int iterations = DeltaMushOptions().iterations)
@@ -93,7 +93,8 @@ double mush_error(const pbs::TetMesh& mesh, const Positions& blended, bool moved
 // Each skinner deforms a body by the settings, plainly in double or packed.
 //   error: of a position [m] of its own limb, of coordinates up to `farthest`, in these settings;
 //   packed_error: the same for packed code compared with plain code; proves: whether that bound is small enough to
-//   prove the code; far_error: by a translation of the pose; blend_error: of what is LBS itself.
+//   prove the code;
+//   far_error: by a translation of the pose; blend_error: of what is LBS itself.
 
 struct NoOptions {};
 

@@ -1,7 +1,7 @@
 // References of frames: any deformed frame, or one that `pbskin references export` has written, whose fields state
 // where errors are measured.
-//   for (const FileReference& reference : file_references("ref_%04d.vtu", frames, rest)) reference.error_of(positions,
-//   skin);
+//   for (const FileReference& reference : file_references("ref_%04d.vtu", frames, rest))
+//       reference.error_of(positions, skin);
 #pragma once
 
 #include "analysis/metrics/error_norms.hpp"

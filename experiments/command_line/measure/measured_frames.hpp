@@ -1,7 +1,7 @@
 // `pbskin measure` for frames of any kind: each is measured and compared with the bounds, and the result is reported.
-//   MeasuredFrames measured = measure_each(arguments, paths, names, [&](std::size_t frame) { return
-//   values_of(read(paths[frame])); }); return reported(arguments, measured, "pbskin explain volume_change_pct explains
-//   a column");
+//   const auto values = [&](std::size_t frame) { return values_of(read(paths[frame])); };
+//   MeasuredFrames measured = measure_each(arguments, paths, names, values);
+//   return reported(arguments, measured, "pbskin explain volume_change_pct explains a column");
 #pragma once
 
 #include "analysis/check/check.hpp"

@@ -23,12 +23,13 @@ namespace experiments {
 // argument of PbsSolver::advance.
 //   lbs             linear blend skinning, as in the paper
 //   previous_frame  the solver's result in the previous frame, which began from the one before it, and so on from the
-//   motion's beginning rest_pose       the rest positions, wherever the character is rigid_bind      every vertex moved
-//   by its nearest bone alone
+//                   motion's beginning
+//   rest_pose       the rest positions, wherever the character is
+//   rigid_bind      every vertex moved by its nearest bone alone
 // Two further ones are controls: LBS once more, and random positions in the box around the LBS shape, from a fixed
 // seed.
 //   for (const FrameStarts& frame : starts_of(character, motion, {164, 708}, options))
-//   frame.shapes[int(SolverStart::rest_pose)];
+//       frame.shapes[int(SolverStart::rest_pose)];
 enum class SolverStart { lbs, previous_frame, rest_pose, rigid_bind };
 inline constexpr std::array<SolverStart, 4> all_starts = {SolverStart::lbs, SolverStart::previous_frame,
                                                           SolverStart::rest_pose, SolverStart::rigid_bind};

@@ -120,16 +120,13 @@ std::vector<analysis::Measurement> response_values(const std::string& body, cons
 
 // These conclusions follow from the measured values:
 // - in the paper's solver: the share of the paper's settings that swing; the rank correlation of the frequency with
-// k_stretch, with its
-//   range when one setting is left out, and the ratio of the frequencies at the ends of k_stretch;
+//   k_stretch, with its range when one setting is left out, and the ratio of the frequencies at the ends of k_stretch;
 // - the ratio of the largest and the smallest amplitude over k_stretch and their rank correlation (C09b), in each order
-// and precision. The
-//   damped finite elements have Young's modulus in the place of k_stretch;
+//   and precision. The damped finite elements have Young's modulus in the place of k_stretch;
 // - the ratio of frequencies with twice the iterations and with the default;
 // - the ratio of frequencies with half the time step and with the whole, for the first setting, with its range over all
-// halvings. Without
-//   gravity Algorithm 1 makes it 2 on any body: by lines 7, 8 and 16 a particle moves on by its last movement, x_n +
-//   (x_n - x_n-1), however long a step is, so that the frequency is one per step.
+//   halvings. Without gravity Algorithm 1 makes it 2 on any body: by lines 7, 8 and 16 a particle moves on by its last
+//   movement, x_n + (x_n - x_n-1), however long a step is, so that the frequency is one per step.
 std::vector<analysis::Measurement> jiggle_conclusions(const std::vector<analysis::Measurement>& measured);
 
 // Both.

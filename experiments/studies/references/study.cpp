@@ -4,7 +4,7 @@
 //
 //   pbskin reproduce references            two poses, three minutes
 //   pbskin reproduce references --full     all poses, two to three hours; what is solved is kept, so that it goes on
-//   where it was interrupted
+//                                          where it was interrupted
 #include "analysis/metrics/error_norms.hpp"
 #include "analysis/records/provenance.hpp"
 #include "analysis/records/record_files.hpp"

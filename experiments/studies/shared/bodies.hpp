@@ -13,11 +13,10 @@ namespace experiments {
 //   const LoadedBody body = jiggling_flesh(character, RestOfBody::held);
 //   effective_stiffness_n_m(body, displacement, 9.81);
 //
-//   bone o=========o      ####------------------------+   a character's jiggling zone (Sec. 4), or the free length of a
-//   bar along x whose
-//        ~ ~ ~ ~ ~ ~      ####      bar, along x      |   first tenth is held
-//          | | | |  g     ####------------------------+   force = mass times gravity, stiffness = force over the mean
-//          displacement
+//   bone o=========o      ####------------------------+   a character's jiggling zone (Sec. 4), or the free
+//        ~ ~ ~ ~ ~ ~      ####      bar, along x      |   length of a bar along x whose first tenth is held
+//          | | | |  g     ####------------------------+   force = mass times gravity,
+//                                                         stiffness = force over the mean displacement
 inline constexpr double flesh_density_kg_m3 = 1000.0;
 inline constexpr double held_share = 0.1;  // of a bar's length
 

@@ -2,14 +2,13 @@
 // positions on the way is measured by the metrics of all records; no value is taken from the solver.
 //   const IterationMetrics iteration_metrics(character, bind_points);
 //   const std::vector<IterationPath> paths = iterate(character, options, bind_points, starts, 1000, metrics);
-//   const Reached reached = reached_residual(paths[0], floor_of(paths));   // reached.iterations, or more than those
-//   where !reached.within
+//   // reached.iterations, or more than those where !reached.within
+//   const Reached reached = reached_residual(paths[0], floor_of(paths));
 // The constraints contradict each other, so a residual does not go to zero. A path has arrived by one of two
 // tolerances:
 // - residual: the combined residual (Look::combined) is within 5 % of its floor, which is the lowest residual that any
-// of the initial
-//   guesses has after the last iteration; or it is below 1e-4, where the constraints can be satisfied and the floor is
-//   rounding (no constraint feels a twist);
+//   of the initial guesses has after the last iteration; or it is below 1e-4, where the constraints can be satisfied
+//   and the floor is rounding (no constraint feels a twist);
 // - volume: the absolute volume change is within the paper's 0.5 % (analysis::kept_volume_pct).
 // The number of iterations is the first one after which the path never leaves the tolerance again.
 #pragma once

@@ -171,8 +171,8 @@ private:
 // The family of references that a comparison of deformers has to survive: nobody knows how flesh is held by its bones,
 // nor how compressible it is. The members differ in the attachment (factor q of the springs, radius of the bones) and
 // in Poisson's ratio.
-//   for (const EnsembleMember& member : family()) PosedReference(character, flesh_of(reference_flesh(scene), member),
-//   pose, dt) ...
+//   for (const EnsembleMember& member : family())
+//       PosedReference(character, flesh_of(reference_flesh(scene), member), pose, dt) ...
 struct EnsembleMember {
     std::string name;  // smooth, stiffer_springs, ...
     FemAttachment attachment = FemAttachment::smooth;

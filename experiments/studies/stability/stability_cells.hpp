@@ -206,8 +206,8 @@ analysis::CsvTable map_csv(const std::vector<CellRow>& cells, const std::string&
 
 // Does a deformer that minimises an energy find its own result again from a broken initial shape, and after how many
 // iterations?
-//   for (const StabilityCell& cell : stability_cells("broken_starts")) rows.push_back(run_broken_start(cell,
-//   most_iterations));
+//   for (const StabilityCell& cell : stability_cells("broken_starts"))
+//       rows.push_back(run_broken_start(cell, most_iterations));
 // The deformer runs from the broken shape with 1, 2, 4, ... iterations, up to the most, and once with the most from its
 // own initial guess. The result of the latter is its own result. These runs differ from a scene only in the initial
 // shape and in the number of iterations. The outcomes in cells.csv cannot show this: there a deformer without memory

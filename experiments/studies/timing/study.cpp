@@ -1,12 +1,14 @@
 // The time of the method and of its parts. Of each case one run is timed at once.
 //
 //   BODY_VERTICES    C10: milliseconds per frame on one core for LBS, bind, stretch, volume and the whole frame
-//   (timing.hpp). man, frankie
-//                    and lady at the sizes of Table 1, the human at the same sizes and on a ladder of sizes.
+//                    (timing.hpp). man, frankie and lady at the sizes of Table 1, the human at the same sizes and on a
+//                    ladder of sizes.
 //   bench            a step in each order, precision and number of threads, and all deformers, relative to plain loops
-//   (bench.hpp) features_SCENE   what each switch of a scene costs, and how far it moves the result; features_sizes:
-//   what a larger mesh costs equal_quality_CASE  the time to an equal answer of every order, precision and sequence of
-//   the constraints (timing.hpp)
+//                    (bench.hpp)
+//   features_SCENE   what each switch of a scene costs, and how far it moves the result; features_sizes: what a larger
+//                    mesh costs
+//   equal_quality_CASE  the time to an equal answer of every order, precision and sequence of the constraints
+//                       (timing.hpp)
 //
 // Writes DIR/timing/RUN/timing.csv and measurements.csv, bench.json and bench.txt, features.csv, or orders.csv and
 // targets.csv; and in DIR/timing timing.csv, real_time.csv, features.csv, answers.csv and bench.txt over all runs.

@@ -1,8 +1,9 @@
 // PBS's rows of the locking table: the effect of one volume constraint per tet on the cantilever of cantilever.cpp.
 //   tip deflection   of linear tets with a given shear modulus that keep every volume exactly, the limit of P1 as nu
-//   goes to 1/2 motions left     by the constraints on the free vertices, by rank; by counting, fewer than none are
-//   left sag              of PBS itself, settled under its own weight (k_stretch gives the stiffness), with volume
-//   constraints over without
+//                    goes to 1/2
+//   motions left     by the constraints on the free vertices, by rank; by counting, fewer than none are left
+//   sag              of PBS itself, settled under its own weight (k_stretch gives the stiffness), with volume
+//                    constraints over without
 // The sag is 5/6 where the constraints do no more than incompressibility does: edges alone are a body of central
 // forces, with nu = 1/4 and E = 2.5 mu, and where no volume changes E = 3 mu.
 #include "experiments/studies/shared/iteration_path.hpp"

@@ -134,12 +134,12 @@ TEST_F(ArtefactsVerdict, RatiosAboveOneAreNotSmoother)
 // C04 from a twisted limb, with the correct solver and with broken ones. Reference:
 // - nothing projected: LBS remains, with radii down to cos 85 deg = 0.09 of the radius and less: a candy wrapper.
 // - bind dropped: only bind constraints contain the distance from the bone, so at 170 degrees sections are narrower
-// than with them.
+//   than with them.
 // - volume sign: the volume projections undo the effect of the bind constraints, so sections are narrower.
 // - volume or stretch dropped: the bind constraints still put every vertex at its distance, so the verdict stays at 60
-// degrees. There is no
-//   theory for the effect of the remaining class on the skin between the vertices. At 170 degrees, where the verdict
-//   was also expected to stay, sections fall below the bound, although they are far above those of LBS.
+//   degrees. There is no theory for the effect of the remaining class on the skin between the vertices. At 170 degrees,
+//   where the verdict was also expected to stay, sections fall below the bound, although they are far above those of
+//   LBS.
 
 constexpr int vertices = 1200;  // on a coarser mesh, sections between the vertices narrow by themselves
 

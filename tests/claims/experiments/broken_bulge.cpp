@@ -3,14 +3,12 @@
 // - nothing projected: LBS remains, whose crease bulges to the sides: wider than the reference.
 // - DQS in its place: the bulge of the claim, a ridge across the joint.
 // - bind or stretch dropped: the crease of LBS changes tets, and the volume constraints reverse it with the class that
-// is left. Without
-//   volume constraints nothing is expected: edges alone do not determine a section, and its radius depends on the
-//   sequence of projections.
+//   is left. Without volume constraints nothing is expected: edges alone do not determine a section, and its radius
+//   depends on the sequence of projections.
 // - volume sign: every projection doubles the error that it should remove, so nothing keeps its size.
 // - flesh too thick: the solver's own rest state is 1.2 times as thick around the joint, and its tets are 1.44 times as
-// large there, as all
-//   constraints require. By geometry, sections are 1.2 times as wide and 1.44 times as large at rest, and bending
-//   changes a section of the correct solver by far less.
+//   large there, as all constraints require. By geometry, sections are 1.2 times as wide and 1.44 times as large at
+//   rest, and bending changes a section of the correct solver by far less.
 #include "experiments/deformers/registry.hpp"
 #include "experiments/studies/artefacts/artefact_values.hpp"
 #include "pbs/solver/options.hpp"

@@ -1,13 +1,11 @@
 // C06 from a limb twisted by 90 degrees, with the weights of Eq. 2, with broken weights and with a broken solver, in
 // the order of the file and double precision. (In a bend the correct weights already fail it.) Reference:
 // - Eq. 2: both bones carry the vertices within a sixth of their length from the joint with equal weights, so two
-// layers of tets take half
-//   of the twist each; with rigid weights one layer takes all of it.
+//   layers of tets take half of the twist each; with rigid weights one layer takes all of it.
 // - rigid: weights that are in fact the rigid ones are exactly as smooth, to the bit: the ratio is 1, which is not
 // smoother.
 // - bones in turn: those vertices are carried by one bone or the other, so LBS tears each from its neighbours. Weights
-// only determine the
-//   initial guess of the solver, which undoes the tears, so its own value does not change.
+//   only determine the initial guess of the solver, which undoes the tears, so its own value does not change.
 // - nothing projected: LBS remains, whose value no solver changes, and the tears remain.
 #include "pbs/geometry/tet_mesh.hpp"
 #include "tests/support/artefact_samples.hpp"

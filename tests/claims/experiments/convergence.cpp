@@ -126,13 +126,11 @@ TEST(ConvergenceVerdict, FollowsFromTheExponentOfTheLadder)
 // A limb bent by 15 degrees, at which the correct solver restores the volume from every initial guess, iterated by the
 // correct solver and by broken ones. Reference:
 // - volume sign: every projection doubles the error that it should remove, so no initial guess comes within 0.5 % of
-// the volume, and the
-//   error after 1000 iterations is far above that of the correct solver.
+//   the volume, and the error after 1000 iterations is far above that of the correct solver.
 // - volume dropped: nothing restores the volume, so no initial guess converges by volume, and 24 iterations do not
 // suffice.
 // - bind dropped: nothing moves the body towards the pose. The rest pose satisfies all remaining constraints, stays in
-// place and is
-//   converged at once, so LBS is not the better initial guess.
+//   place and is converged at once, so LBS is not the better initial guess.
 // - nothing projected: every initial guess stays unchanged, to the bit: the rest pose has its volume at once, LBS
 // never.
 // - stretch dropped: the bind and the volume constraints remain, and the last residual of the edges is larger.

@@ -134,8 +134,8 @@ TEST(JiggleVerdict, OtherReadingsDoNotTurnIt)
 // - volume sign: the projections add energy, so at no setting does the flesh come to rest as well as with the correct
 // solver.
 // - one class dropped: fewer constraints hold the flesh, so every frequency falls (Rayleigh), and it still swings. A
-// jolt along the spheres
-//   of the bind constraints was expected not to involve them, but they hold the parts to which the flesh is attached.
+//   jolt along the spheres of the bind constraints was expected not to involve them, but they hold the parts to which
+//   the flesh is attached.
 // - any: half the time step still gives twice the frequency, since Algorithm 1 contains steps but no time.
 
 const JoltCase small_limb{.scene = "limb_twist",

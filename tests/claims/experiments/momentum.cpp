@@ -53,8 +53,7 @@ TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsValues)
 // C07 from correct and broken projections. Reference:
 // - volume sign: corrections are reversed and still add up to zero, so the verdict must stay (Eq. 3-4 require no more).
 // - printed labels: gradients at the wrong particles still add up to zero (Eq. 15), but their moments do not: angular
-// momentum is lost,
-//   linear momentum is not.
+//   momentum is lost, linear momentum is not.
 // - a class dropped: a class that is not projected has no drift, so it is not counted as conserved.
 // A case is a class and linear or angular momentum.
 

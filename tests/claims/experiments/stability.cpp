@@ -246,8 +246,7 @@ TEST(StabilityVerdict, TimeStepsThatDoNotEnterAreNotCounted)
 // - one class dropped: a projection removes at most its own error, and the other classes still hold the body, so it
 // stays bounded.
 // - multipliers forgotten: XPBD is not part of the claim; each of its projections still takes a share below one, so it
-// is as stable as with
-//   them.
+//   is as stable as with them.
 
 using test_support::broken;
 using test_support::Broken;
