@@ -1,4 +1,6 @@
-// Characters by name (named_bodies) and from files.
+// Characters by name (the table is named_bodies()) and from files.
+//   const Character human = make_character({.body = "human"});
+//   const Character hero = make_character({.model_file = "hero.glb", .vertices = 4000});
 #pragma once
 
 #include "experiments/characters/character.hpp"

@@ -1,4 +1,7 @@
-// A character: flesh, bones, how they hang together, and the surface that is rendered.
+// A character: its flesh, its bones, how these hang together, and the surface that is rendered. make_character
+// (bodies.hpp) builds one.
+//   const Character limb = make_character({.body = "limb"});
+//   linear_blend_skinning(limb.mesh.rest, limb.weights, pose, posed);
 #pragma once
 
 #include "experiments/characters/embedding.hpp"

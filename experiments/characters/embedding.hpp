@@ -1,5 +1,7 @@
-// A surface carried by a tet mesh: each surface vertex keeps barycentric coordinates in one tet, extrapolated where it
-// lies outside.
+// A surface that a tet mesh carries. Each point of the surface keeps barycentric coordinates in one tet, which are
+// extrapolated if the point lies outside.
+//   const EmbeddedSurface skin = embed(surface.points, surface.triangles, mesh);
+//   const Positions points = embedded_positions(skin, deformed, mesh.tets);
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -18,9 +20,9 @@ struct EmbeddedSurface {
     double largest_distance_outside_m = 0.0;  // of a surface vertex from the tets
 };
 
-// Each point of `surface` [m], #S x 3, in the tet that holds it or is nearest, in rest pose. The mesh has at least one
-// tet, none flat (unchecked). may_carry(point, tet): only such tets are taken, unless there is none for the point; by
-// default all.
+// Embeds each point of `surface` [m], #S x 3, in the tet that holds it or is nearest to it in rest pose. The mesh has
+// at least one tet, and none is flat (unchecked). may_carry(point, tet) excludes tets, unless all are excluded for a
+// point; by default any tet may carry any point.
 EmbeddedSurface embed(const Positions& surface, const Triangles& triangles, const TetMesh& mesh,
                       const std::function<bool(Eigen::Index, int)>& may_carry = {});
 

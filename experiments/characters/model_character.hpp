@@ -1,5 +1,7 @@
-// A character from a rigged model: tets from its surface, the skeleton of its joints, the artist's weights, and the
-// surface itself carried along.
+// A character from a rigged model: the tets fill its surface, its joints give the skeleton, the artist's weights are
+// carried into the tets, and the tets carry the surface along.
+//   RemarkList remarks;
+//   const Character hero = make_model_character({.file = "hero.glb", .vertices = 2000}, remarks);
 #pragma once
 
 #include "experiments/characters/character.hpp"
@@ -29,6 +31,8 @@ struct ModelSource {
 };
 constexpr int default_model_vertices = 2000;
 
+// Reads a rigged file. animation: the name of the animation that determines the model's size; empty: the first one.
+// scale: further metres per metre of the file. InputErrors are those of read_rig.
 std::shared_ptr<const RiggedModel> read_model(const std::string& file, const std::string& animation, double scale);
 
 // Binding and `weights` are left for make_character. `remarks` gets everything that was dropped, guessed or looks

@@ -1,5 +1,7 @@
-// The sources of the bodies that make_character knows by name; their table is in bodies.cpp. The makers take the wanted
-// number of vertices, more than 0; the files are those that must be installed.
+// The sources of the bodies that make_character knows by name; bodies.cpp has their table.
+//   const Character human = make_human("human", 1775, true);
+// A function make_NAME builds a body with about the wanted number of vertices (more than 0) and, if requested, its
+// rendered surface. A function NAME_files lists the files that must be installed for it.
 #pragma once
 
 #include "experiments/characters/character.hpp"

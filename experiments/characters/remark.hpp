@@ -1,4 +1,5 @@
 // A remark for the user of a result, and how grave it is.
+//   remarks.push_back({Gravity::part_left_out, "hero.glb: the node Sword is left out"});
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
 // Parts of a model that its skeleton moves apart, and the cut of the flesh between them.
+//   const SeparatedFlesh flesh = separate_parts(mesh, SkinParts(body, poses), skeleton);
 #pragma once
 
 #include "experiments/characters/character.hpp"

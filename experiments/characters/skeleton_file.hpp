@@ -1,4 +1,5 @@
-// The skeleton TOML: [[joint]] with name, parent ("" for a root), head_m, tail_m.
+// The skeleton TOML: a table [[joint]] per bone with name, parent ("" for a root), head_m and tail_m.
+//   const Skeleton skeleton = parse_skeleton(pbs::read_text_file("arm.skeleton.toml"), "arm.skeleton.toml");
 #pragma once
 
 #include "pbs/skinning/pose.hpp"
@@ -9,10 +10,11 @@
 
 namespace pbs {
 
-// Coordinates in metres; bones come parents first, else in the file's order. InputError by line: no TOML; a key that is
-// unknown, missing or of another type; a coordinate that is not finite or beyond 1e9 m; a name given twice or empty, a
-// parent that is none (the nearest is named), a cycle; no root; a bone without length; no joint, or over 2,000. And in
-// a build without PBS_WITH_RIG_IMPORT.
+// Reads a skeleton. Coordinates are in metres; bones come parents first, else in the order of the file. `name` stands
+// for the file in errors. InputError, by line, for a text that is no TOML; a key that is unknown, missing or of another
+// type; a coordinate that is not finite or is beyond 1e9 m; a name that is empty or given twice; a parent that does not
+// exist (the nearest name is stated); a cycle; no root; a bone without length; no joint, or more than 2,000. In a build
+// without PBS_WITH_RIG_IMPORT, every text is an InputError.
 Skeleton parse_skeleton(const std::string& text, const std::string& name);  // `name` stands for the file in errors
 
 // A joint as a skeleton file describes it, and the line at which it begins.

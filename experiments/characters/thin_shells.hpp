@@ -1,4 +1,5 @@
 // Separate shells of a surface that are too thin for the tets, such as whiskers and whips.
+//   const ThickShells thick = thick_shells(surface, 2000);   // thick.triangles: the surface without them
 #pragma once
 
 #include "experiments/meshes/meshing.hpp"

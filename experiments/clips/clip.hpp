@@ -1,4 +1,7 @@
-// Motion capture clips (BVH; glTF, FBX and COLLADA by the readers of rigs) and how they reach our skeletons.
+// Motion capture clips, and how they reach the skeletons of characters. BVH files are read here; glTF, FBX and COLLADA
+// files by the readers of rigs.
+//   const Clip walk = read_clip("walk.bvh");
+//   const Motion motion = retarget(walk, skeleton, {});
 #pragma once
 
 #include "pbs/skinning/pose.hpp"
@@ -38,10 +41,10 @@ struct Clip {
 // (PBS_WITH_RIG_IMPORT).
 Clip read_clip(const std::string& path, const std::string& animation = "");
 
-// The parts of read_clip. Dialects of BVH: keywords in any case, names with spaces, any white space and line breaks,
-// several roots, a row more or less than Frames states, numbers without a blank before a minus sign, positions in the
-// channels in place of offsets. An InputError names the line, the field and the rule. by its extension or its first
-// word, HIERARCHY, after a byte-order mark
+// The parts of read_clip for BVH. Its dialects are read: keywords in any case, names with spaces, any white space and
+// line breaks, several roots, a row more or less than Frames states, numbers without a blank before a minus sign, and
+// positions in the channels in place of offsets. An InputError names the line, the field and the rule. is_bvh decides
+// by the extension, or by the first word, HIERARCHY, after a byte-order mark.
 bool is_bvh(const std::string& text, const std::string& path);
 Clip read_bvh(const std::string& text, const std::string& path);
 

@@ -1,7 +1,11 @@
-// Reading and writing meshes. Libraries read .vtu, .pvtu, .vtk and .vtp (VTK) and .ply, .off and .stl (CGAL). Gmsh's
-// .msh, MEDIT's .mesh, TetGen's .node/.ele, .tobj and .obj are read here: their libraries drop or guess without a word
-// what a file holds. Bad files are InputErrors, and in a build without PBS_WITH_MESH_IO everything is. Surfaces are
-// read by experiments/rigs/surface_reader.hpp.
+// Reading and writing meshes.
+//   const MeshReading arm = read_tet_mesh("arm.msh");       // a mesh to compute on: checked, positively oriented
+//   const TetMesh frame = read_tet_frame("arm_0007.vtu");   // a deformed frame as it is in the file
+//   write_tet_mesh("arm.vtu", arm.mesh);
+// VTK reads .vtu, .pvtu, .vtk and .vtp, and CGAL reads .ply, .off and .stl. Gmsh's .msh, MEDIT's .mesh, TetGen's
+// .node/.ele, .tobj and .obj are read here, since their libraries drop or guess without a word what a file holds. A bad
+// file is an InputError, and so is every file in a build without PBS_WITH_MESH_IO. experiments/rigs/surface_reader.hpp
+// reads surfaces.
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -38,33 +42,31 @@ struct MeshReading {
     std::string read_as;  // the usual extension of the file's format, if its own is another one; empty: as it is named
 };
 
-// The reader is chosen by the content of a file where it shows the format, otherwise by the extension. For TetGen and
-// .tobj it does not.
-//
-// A tet mesh to compute on: finite, not empty, indices in range, no tet without volume, no face in three tets, no
-// neighbours that overlap, boundary not self-intersecting (checked in builds with CGAL), no two vertices in one place.
-// Unused vertices are left out, tets that touch in a vertex or an edge alone are separated there, so that the boundary
-// is manifold, and the orientation is normalised. for_computing: false keeps the file's vertices, and states those in
-// one place and a boundary that intersects itself in the result, for metrics, which need neither a manifold boundary
-// nor one that bodies do not share.
+// Reads a tet mesh to compute on. The content of the file chooses the reader if it shows the format, otherwise the
+// extension does; for TetGen and .tobj it is always the extension.
+// InputError unless the mesh is finite and not empty, its indices are in range, each tet has a volume, no face is in
+// three tets, neighbours do not overlap, the boundary does not intersect itself (checked in builds with CGAL), and no
+// two vertices are in one place. Unused vertices are left out, tets that touch in a vertex or an edge alone are
+// separated there, so that the boundary is manifold, and the orientation is normalised.
+// for_computing: false keeps the file's vertices, and states those in one place and a boundary that intersects itself
+// in the result. This is for metrics, which need neither a manifold boundary nor one that bodies do not share.
 MeshReading read_tet_mesh(const std::string& path, bool for_computing = true);
 
-// Points and tets as they are in the file, including inverted tets: the metrics of deformed frames need them. A tet
-// that is listed several times counts once. InputError where there is no tet, an index out of range, or a coordinate
-// that is not finite or beyond 1e9 m.
+// Reads points [m] and tets as they are in the file, including inverted tets, which the metrics of deformed frames
+// need. A tet that is listed several times counts once. InputError if there is no tet, if an index is out of range, or
+// if a coordinate is not finite or is beyond 1e9 m.
 TetMesh read_tet_frame(const std::string& path);
 
-// The arrays of the points of a .vtu, .vtk, .vtp or .msh ($NodeData) with one or three components, such as a
-// displacement, by their names: #P x 1 or #P x 3, in the order of read_tet_frame. name: that array alone, so that
-// damage in others does no harm; empty: all. None of a file of another format. InputError for arrays that cannot be
+// Reads the arrays of the points of a .vtu, .vtk, .vtp or .msh ($NodeData) that have one or three components, such as a
+// displacement, by their names: #P x 1 or #P x 3, in the order of read_tet_frame. name: reads this array alone, so that
+// damage in others does no harm; empty: all. A file of another format has none. InputError for arrays that cannot be
 // read.
 std::map<std::string, Eigen::MatrixXd> read_point_arrays(const std::string& path, const std::string& name = "");
 
-// By extension: .msh (4.1 ASCII), .vtu, .mesh. Written to a temporary file and renamed. The format alone can be checked
-// before the work.
+// write_tet_mesh writes a mesh in the format of its extension: .msh (4.1 ASCII), .vtu or .mesh. Coordinates read back
+// to the bit. The file is written under a temporary name and then renamed. InputError for another extension, and if the
+// file cannot be written. require_tet_mesh_format checks the extension alone, before the work.
 void require_tet_mesh_format(const std::string& path);
-// InputError for another extension (require_tet_mesh_format: that alone), and where the file cannot be written.
-// Coordinates read back to the bit.
 void write_tet_mesh(const std::string& path, const TetMesh& mesh);
 
 // A triangle mesh, closed or not; its maker says whether it was checked.
@@ -85,8 +87,8 @@ void write_vtu(const std::string& path, const Positions& points, const Tets& tet
 // A surface, without fields; errors as of write_vtu.
 void write_vtp(const std::string& path, const Positions& points, const Triangles& triangles);
 
-// The files of a .pvd by time, relative to the current folder. InputError: no such collection, or several parts of one
-// time.
+// Reads the names of the files of a .pvd in the order of their times, relative to the current folder. InputError if the
+// file is no such collection, or if it has several parts of one time.
 std::vector<std::string> read_pvd(const std::string& path);
 
 // A ParaView collection of frames: time [s] -> file name relative to the .pvd, in the order given; names stand in it as
@@ -102,7 +104,7 @@ void write_pvd(const std::string& path, const std::vector<std::pair<double, std:
 // m).
 std::vector<std::string> remarks_on(const std::string& path, const MeshReading& reading);
 
-// On a file whose content has the format of files with another extension.
+// The remark on a file whose content has the format of files with another extension.
 std::string remark_on_name(const std::string& path, const std::string& content_extension);
 
 // For readers: remarks on a surface after its points were joined, and on what was left out of it: points that no

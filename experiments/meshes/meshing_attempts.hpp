@@ -1,4 +1,5 @@
 // The search for the cell size that gives the wanted number of vertices.
+//   const TetMesh mesh = mesh_at_vertex_count(2000, 0.05, [&](double size) { return mesh_with_cells(size); });
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"

@@ -1,5 +1,5 @@
-// Surfaces of any format: .obj, .ply, .off, .stl and .vtp by the readers of pbs/geometry, and .gltf, .glb, .dae, .zae
-// and .fbx by those of rigs, by content where it shows the format and otherwise by extension.
+// Surfaces of any format. experiments/meshes reads .obj, .ply, .off, .stl and .vtp, and the readers of rigs read .gltf,
+// .glb, .dae, .zae and .fbx. The content chooses the reader if it shows the format, otherwise the extension does.
 //   const SurfaceMesh body = read_surface("body.fbx");
 #pragma once
 

@@ -1,4 +1,6 @@
-// The results that a folder had before a run: a run that fails leaves them as they were.
+// The results that a folder had before a run. A run that fails leaves them as they were.
+//   EarlierResults earlier("results/arm");   // puts them aside, and back at the end of the scope
+//   earlier.replace();                       // where the run has finished
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,7 @@
 // Everything that is measured on one frame of one deformer: the metrics of the tets, the errors against the reference,
 // the smallest cross-section, and the volume of the rendered surface.
+//   FrameMeasurer measurer(character, scene.output, prescribed);
+//   const FrameMeasurement measured = measurer.measure(positions, {.pose = &pose, .reference = &reference});
 #pragma once
 
 #include "analysis/metrics/cross_section.hpp"
@@ -78,8 +80,8 @@ public:
     // prescribed: as in error_domain.
     FrameMeasurer(const pbs::Character& character, const OutputSpec& output, const std::vector<bool>& prescribed);
     FrameMeasurement measure(const pbs::Positions& positions, const FrameContext& context);
-    // Errors and differences of the coming frame leave these out. The share of their volume [%]. The scene must have
-    // asked for errors.
+    // Leaves the vertices near these tips out of the errors and differences of the coming frame, and returns the share
+    // of their volume [%]. The scene must have asked for errors.
     double leave_out(const std::vector<CreaseTip>& tips);
     // Whether the skin passes through itself, which that of an equilibrium with contact does not.
     bool overlaps(const pbs::Positions& positions) const { return pbs::self_intersects(positions, skin_); }

@@ -1,5 +1,7 @@
-// metrics.csv: one row per frame and deformer. `pbskin list metrics` and `pbskin explain COLUMN` print the meanings and
-// units that are declared with the columns.
+// metrics.csv has one row per frame and deformer. `pbskin list metrics` and `pbskin explain COLUMN` print the meanings
+// and units that are declared with the columns.
+//   const auto columns = metric_columns_of(scene);
+//   table_of(columns, {metric_row(scene, spec, frame, time_s, measured, step)}).write("metrics.csv");
 #pragma once
 
 #include "analysis/records/tables.hpp"
@@ -9,7 +11,7 @@
 namespace experiments {
 
 struct MetricRow {
-    // From the scene and the deformer.
+    // These are facts of the scene and the deformer, the same in all frames.
     std::string scene, deformer, variant, order = {}, precision = {};
     std::optional<int> iterations = {};
     int threads = 1;
@@ -30,7 +32,7 @@ MetricRow metric_row(const Scene& scene, const DeformerSpec& spec, int frame, do
 
 const analysis::Columns<analysis::FrameMetrics>& frame_metric_columns();  // what needs only the positions of a frame
 const analysis::Columns<analysis::SkinError>& skin_error_columns();       // skin_rms_mm, ...
-// without the groups that the scene does not ask for
+// The columns of metrics.csv, without the groups that the scene does not ask for.
 analysis::Columns<MetricRow> metric_columns_of(const Scene& scene);
 
 // The text of `pbskin explain` about a metric.

@@ -1,5 +1,8 @@
-// regions.csv: the volume that the tets of each bone and of each joint gain or lose over the frames of a run. One row
-// per deformer and region.
+// regions.csv: the volume that the tets of each bone and of each joint gain or lose over the frames of a run, with one
+// row per deformer and region.
+//   RegionRecord record(character);
+//   record.add("pbs", positions);                 // once per frame
+//   record.table().write("regions.csv");
 #pragma once
 
 #include "analysis/metrics/frame_metrics.hpp"

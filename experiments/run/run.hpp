@@ -1,5 +1,7 @@
-// Runs one scene: from its character, motion and deformers to the folder of a run (metrics.csv, iterations.csv,
+// Runs one scene, from its character, motion and deformers to the folder of a run (metrics.csv, iterations.csv,
 // run.json, frames/).
+//   const RunResult result = run_scene(read_scene("arm.toml", {}), "results/arm");
+//   if (!result.failure().empty()) ...
 #pragma once
 
 #include "analysis/records/provenance.hpp"
@@ -34,15 +36,15 @@ struct RunResult {
     const std::string& failure() const { return breakdown.empty() ? bad_frame : breakdown; }
 };
 
-// stop: an interruption ends the program; the tables keep all frames except those of the last second. finish_early: it
-// ends the solving of a reference with a budget, or else the motion after the present frame, and the records of what is
-// finished are written whole.
+// What an interruption does to a run. stop: it ends the program, and the tables keep all frames except those of the
+// last second. finish_early: it ends the solving of a reference with a budget, or else the motion after the present
+// frame, and the records of what is finished are written whole.
 enum class WhenInterrupted { stop, finish_early };
 
-// Overwrites the records in `folder`. Each file is written whole or not at all, run.json last. A breakdown of a
-// negative control (the printed forms, linear elasticity) is only recorded, under outcome.broken_frames. remarks: what
-// the caller has to say about the scene; they are printed and recorded before those of the run. model: the scene's
-// rigged model, if the caller has read it. Its bytes are kept until the first frame.
+// Runs the scene and overwrites the records in `folder`. Each file is written whole or not at all, run.json last. A
+// breakdown of a negative control (the printed forms, linear elasticity) is only recorded, under outcome.broken_frames.
+// remarks: what the caller has to say about the scene, which is printed and recorded before the remarks of the run.
+// model: the scene's rigged model, if the caller has read it; its bytes are kept until the first frame.
 RunResult run_scene(const Scene& scene, const std::string& folder, const Remarks& remarks = {},
                     WhenInterrupted when_interrupted = WhenInterrupted::stop,
                     std::optional<pbs::SourceFile> model = {});

@@ -42,7 +42,7 @@ public:
     void write_frame(const DeformerSpec& spec, int frame, double time_s, const pbs::Pose& pose,
                      const pbs::Character& character, const pbs::Positions& positions, FrameMeasurer& measurer,
                      const std::vector<bool>& prescribed);
-    // For a frame that is written.
+    // Adds the pose of a frame that is written to the table of bones.
     void write_pose(int frame, double time_s, const pbs::Skeleton& skeleton, const pbs::Pose& pose)
     {
         add_bones(bones_, frame, time_s, skeleton, pose);
@@ -59,21 +59,21 @@ public:
         Eigen::Index vertex = -1;
     };
     const FollowedSkin& followed_skin() const { return followed_; }
-    // What of the model the .glb files do not show.
+    // What the .glb files do not show of the model, a sentence each.
     const std::vector<std::string>& remarks() const { return materials_.remarks; }
-    // Into the deformer's state hash and the changes of its regions.
+    // Adds a frame's positions to the state hash of the deformer and to the changes of its regions.
     void add_positions(const std::string& label, const pbs::Positions& positions)
     {
         hashes_[label].add(positions);
         regions_.add(label, positions);
     }
 
-    // All CSV files of the frames so far, and the collections: all records of an interrupted run. The moving surfaces
-    // (.glb) are large, and need to be written once.
+    // Writes all CSV files and the collections of the frames so far, which are all records of an interrupted run. The
+    // moving surfaces (.glb) are large and need to be written only once.
     void write_tables(bool with_moving_surfaces);
 
     std::string earlier_results() const { return earlier_->path(); }  // as EarlierResults::path
-    // of a run that was interrupted, whose tables stay
+    // Keeps the earlier results aside of an interrupted run, whose tables stay.
     void keep_earlier_aside() { earlier_->keep_aside(); }
 
     // A sentence on the frames that are left out to stay within the sizes of OutputSpec; empty: none.

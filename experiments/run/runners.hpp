@@ -1,4 +1,6 @@
-// The deformers of a run, and what their frames add up to.
+// The deformers of a run, each with its state and with the sums over its frames that the summary on the terminal needs.
+//   std::vector<Runner> runners = make_runners(scene, character, cost, folder, WhenInterrupted::stop);
+//   for (Runner& runner : runners) runner.steps.add(runner.deformer->advance(pose, dt_s), step);
 #pragma once
 
 #include "experiments/deformers/registry.hpp"
@@ -31,12 +33,12 @@ struct Runner {
     // Curved elements are judged at their quadrature points, since their vertices alone may form an inverted tet. False
     // for a deformer that solves no equations.
     bool has_inverted_flesh(const FrameMeasurer& measurer) const;
-    // For the terminal: the range of its volume, over the frames that it reached, of so many.
+    // A line for the terminal: the range of the volume over the frames that were reached, out of so many.
     std::string summary(int frames) const;
 };
 
-// Sets up all deformers of the scene. The reference comes first, so that a frame's errors can be measured. folder: of
-// the run, in which a reference with a budget keeps its solved frames.
+// Makes and resets all deformers of the scene. The reference comes first, so that the errors of a frame can be
+// measured. folder: that of the run, in which a reference with a budget keeps its solved frames.
 std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& character, CostRecord& cost,
                                  const std::string& folder, WhenInterrupted when_interrupted);
 
@@ -44,7 +46,8 @@ std::vector<Runner> make_runners(const Scene& scene, const pbs::Character& chara
 ReferenceBudget reference_budget(const DeformerSpec& reference, const pbs::Character& character,
                                  const std::string& folder, double seconds, bool goes_on_without_the_rest);
 
-// Vertices whose positions any of the deformers is given, #V; empty: none. Errors leave them out.
+// The vertices whose positions at least one of the deformers is given, #V; empty: there are none. Errors leave them
+// out.
 std::vector<bool> prescribed_by_any(const std::vector<Runner>& runners);
 
 }  // namespace experiments

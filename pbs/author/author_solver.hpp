@@ -1,12 +1,12 @@
 // Position based skinning as in the code that the paper's first author published in 2018: GitHub,
 // NadineAB/Radium-Engine, branch PBS, commit f7101809, folder Plugins/Skinning/src/PositionBasedSkinning. It is not the
-// program of the paper, but it is the author's own reading of it. Written anew from a description of what that code
-// does.
+// program of the paper, but it is the author's own reading of it. This file is written anew from a description of what
+// that code does.
 //   AuthorSolver solver(mesh, skeleton, bind_to_nearest_bone(mesh.rest, skeleton), options);
 //   solver.advance(pose);   // every frame
 //   solver.positions();
 //
-// Where it departs from the paper, `pbskin explain pbs_author` lists. In short: every particle starts every frame at
+// `pbskin explain pbs_author` lists where it departs from the paper. In short: every particle starts every frame at
 // its LBS position and is integrated with the displacement of the last frame as its velocity, so that motion counts
 // twice; the volume gradients lack 1/6; binds search the posed bone anew, with half the correction; one colouring of
 // all constraints determines the order.

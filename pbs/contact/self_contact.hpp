@@ -29,9 +29,9 @@ public:
 
     const std::vector<int>& vertices() const { return vertices_; }  // ascending
 
-    // The nearest point of the skin [m], sought from the skin near these vertices of the mesh: from skin vertex to skin
-    // vertex as long as that is nearer, then on the triangles around. Between two sides that are about equally near it
-    // may be that of the other one.
+    // The nearest point of the skin [m]. The search begins at the skin near these vertices of the mesh and goes from
+    // skin vertex to skin vertex as long as the next one is nearer, and then over the triangles around. Between two
+    // sides that are about equally near it may find that of the other one.
     Vec3 nearest(const Vec3& point, const Eigen::Vector4i& near) const;
 
 private:

@@ -1,4 +1,6 @@
 // Elastic flesh that the bones hold, and its energy as a minimiser needs it.
+//   const BoneSprings springs = bone_springs(character, SpringPlacement::smooth, {}).springs;
+//   const HeldFlesh flesh(mesh, springs, bones, {.poisson = 0.45});
 #pragma once
 
 #include "pbs/flesh/flesh_energy.hpp"

@@ -24,8 +24,8 @@ public:
     int dofs() const { return static_cast<int>(gradients_.cols()); }  // of the vertices that are not held
     int rank() const;                                                 // by QR; seconds for some thousand tets
 
-    // Displacement [m], #V x 3, of linear tets of this shear modulus [Pa] that keep every volume, under a load [N], #V
-    // x 3; at least three vertices are held. By the method of multipliers.
+    // Displacements [m], #V x 3, under a load [N], #V x 3, of linear tets of this shear modulus [Pa] that keep every
+    // volume, by the method of multipliers. At least three vertices are held.
     Positions equilibrium(const Positions& load_n, double shear_pa) const;
 
 private:

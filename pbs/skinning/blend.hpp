@@ -1,6 +1,9 @@
-// The two blends the paper compares itself with: both move rest positions [m], #V x 3, into a pose. Sizes are not
-// checked: `weights` has #V vertices or more, and the pose a transform for every bone that they name. `posed` is
-// resized.
+// The two blends that the paper compares itself with. Both move rest positions [m], #V x 3, into a pose.
+//   linear_blend_skinning(rest, weights, pose, posed);
+//   BlendSkinning<float> skinning(rest, weights);   // for many poses: packed once
+//   skinning.linear(pose, posed);
+// Sizes are not checked: `weights` has #V vertices or more, and the pose has a transform for every bone that they name.
+// `posed` is resized.
 #pragma once
 
 #include "pbs/skinning/skinning_kernels.hpp"
@@ -69,7 +72,7 @@ PackedWeights<Scalar> pack_weights(const Weights& weights);
 // The middle of the box around the points [m]; zero of no points.
 Vec3 middle_of_box(const Positions& points);
 
-// Where the first bone of a pose moves the middle of the rest shape: an origin near the posed body.
+// An origin near the posed body: the place to which the first bone of the pose moves the middle of the rest shape.
 Vec3 posed_origin(const Pose& pose, const Vec3& middle);
 
 // Rows x, y, z relative to the origin as positions in the world.
@@ -95,8 +98,8 @@ public:
     void linear(const Pose& pose, Positions& posed);
     void dual_quaternion(const Pose& pose, Positions& posed);  // likewise
 
-    // Without conversion: posed position - origin [m], #V rows x, y, z. Float loses no digits where `origin` is near
-    // the posed body.
+    // The same without conversion: posed position - origin [m], #V rows x, y, z. Float loses no digits if `origin` is
+    // near the posed body.
     void linear_rows(const Pose& pose, const Vec3& origin, Scalar* posed);
     void dual_quaternion_rows(const Pose& pose, const Vec3& origin, Scalar* posed);  // likewise
 

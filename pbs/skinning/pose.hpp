@@ -1,5 +1,7 @@
-// One pose of the skeleton, a motion as a sequence of them, the path from one pose to another, and the frames of a
-// recorded motion.
+// The skeleton in rest pose, one pose of it, a motion as a sequence of poses, the path from one pose to another, and
+// the frames of a recorded motion.
+//   const Motion bend = joint_sweep(skeleton, find_bone(skeleton, "forearm"), Vec3::UnitY(), 90.0, 37, 0.01);
+//   for (const Pose& pose : bend.steps) linear_blend_skinning(rest, weights, pose, posed);
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -11,11 +13,9 @@
 
 namespace pbs {
 
-// The skeleton in rest pose. A bone is the segment head -> tail and moves rigidly with its joint at the head;
-// rest rotations are the identity (world axes).
-
-// Skeletons from files have names given once, bones with a length, and at least one root; those made by hand are not
-// checked.
+// A bone of the skeleton in rest pose: the segment from its head to its tail, which moves rigidly with its joint at the
+// head. Rest rotations are the identity (world axes). In skeletons from files each name is given once, bones have a
+// length, and there is at least one root; those made by hand are not checked.
 struct Bone {
     std::string name;  // what clips, weights files and find_bone know it by
     int parent = -1;   // index into Skeleton::bones, -1 for a root; parents precede their children

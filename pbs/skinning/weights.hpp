@@ -1,4 +1,6 @@
-// Skinning weights, sparse in bones.
+// Skinning weights, sparse in bones, and how vertices are bound to the skeleton.
+//   const BoneBinding binding = bind_to_nearest_bone(mesh.rest, skeleton);
+//   const Weights weights = paper_weights(binding, skeleton);            // Eq. 2
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -8,9 +10,8 @@
 
 namespace pbs {
 
-// How each vertex is bound to the skeleton in rest pose: its nearest bone and its projection on that bone.
-
-// One entry per vertex of the bound mesh.
+// How each vertex is bound to the skeleton in rest pose: its nearest bone and its projection on that bone. It has one
+// entry per vertex of the bound mesh.
 struct BoneBinding {
     std::vector<int> bone;      // nearest bone of each vertex, #V; the first of equals
     Eigen::VectorXd parameter;  // position along the bone, (v - s).(d - s) / |d - s|^2, not clamped, #V
@@ -18,9 +19,9 @@ struct BoneBinding {
     Eigen::VectorXd distance;   // d_i = |v_i - rest_point_i| [m], #V
 };
 
-// rest: rest positions [m], #V x 3. A bone without length is the point at its head, with parameter 0. InputError where
-// the skeleton has no bone. may_bind(vertex, bone), if given: the nearest of these bones; of all where a vertex has
-// none.
+// Binds each of the rest positions [m], #V x 3, to its nearest bone. A bone without length is the point at its head,
+// with parameter 0. may_bind(vertex, bone) excludes bones, unless all are excluded for a vertex; by default any bone
+// may bind. InputError if the skeleton has no bone.
 BoneBinding bind_to_nearest_bone(const Positions& rest, const Skeleton& skeleton,
                                  const std::function<bool(int, int)>& may_bind = {});
 
@@ -53,10 +54,11 @@ struct Weights {
     void end_vertex() { first.push_back(static_cast<int>(bone.size())); }
 };
 
-// `binding` must belong to this skeleton (unchecked); it determines #V and the order of the vertices.
-// Eq. 2: 1 at 1/6 <= t <= 5/6, else 1 / n of bones_meeting
+// Weights by Eq. 2: a vertex at 1/6 <= t <= 5/6 along its bone has weight 1 of this bone, and any other vertex has 1 /
+// n of each of the n bones that meet at this end (bones_meeting). `binding` must belong to the skeleton (unchecked); it
+// determines #V and the order of the vertices.
 Weights paper_weights(const BoneBinding& binding, const Skeleton& skeleton);
-Weights rigid_weights(const BoneBinding& binding);  // nearest bone only
+Weights rigid_weights(const BoneBinding& binding);  // weight 1 of the nearest bone
 
 // The other reading of Eq. 2's n_joints: near either end, 1 / n over all bones that touch the bone at either end.
 Weights either_end_weights(const BoneBinding& binding, const Skeleton& skeleton);
@@ -65,15 +67,14 @@ Weights either_end_weights(const BoneBinding& binding, const Skeleton& skeleton)
 using BonesAtEnd = std::vector<std::vector<int>>;  // of each bone
 Weights weights_by_end(const BoneBinding& binding, const BonesAtEnd& at_head, const BonesAtEnd& at_tail);
 
-// One row per vertex and one column per bone: what exceeds `negligible`, scaled to a sum of one. A vertex where nothing
-// does has its weights of `otherwise`.
+// Weights from a matrix with one row per vertex and one column per bone: entries above `negligible`, scaled to a sum of
+// one. A vertex without such an entry has its weights of `otherwise`.
 Weights sparse_weights(const Eigen::MatrixXd& dense, double negligible, const Weights& otherwise);
 
-// Smooth weights of the bones in the flesh: each bone's weight is harmonic between the vertices where it is known.
-
-// Weights are 1 where their bone grips the flesh and 0 where another does. They predict where the flesh moves with the
-// bones, for example as an initial guess of a solver. gripping_bone: #V, -1 where no bone grips. Linear elements. A
-// connected part that nothing grips belongs to the first bone.
+// Smooth weights of the bones in the flesh, by linear elements. Weights are 1 where their bone grips the flesh, 0 where
+// another one does, and harmonic between. They predict where the flesh moves with the bones, for example as an initial
+// guess of a solver. gripping_bone: #V, -1 where no bone grips. A connected part that nothing grips belongs to the
+// first bone.
 Weights harmonic_weights(const TetMesh& mesh, const std::vector<int>& gripping_bone, int bones);
 
 // The same with given weights, of which a vertex may have several: known: #V, which rows of `weights` are given;

@@ -1,7 +1,7 @@
 // Algorithm 1 of the paper for one mesh, in one precision. PbsSolver is its public interface.
-// Where Algorithm 1 is ambiguous: particles outside the jiggling zone start every step at their LBS position and have
-// no velocity; those inside are integrated (particles.hpp). Projections run in Scalar, in float relative to the mean
-// position of the step.
+// The paper leaves open where particles start. Here particles outside the jiggling zone start every step at their LBS
+// position and have no velocity, and those inside are integrated (particles.hpp). Projections run in Scalar; in float,
+// positions are relative to the mean position of the step.
 #pragma once
 
 #include "pbs/contact/self_contact.hpp"

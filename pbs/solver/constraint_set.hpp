@@ -1,5 +1,5 @@
-// The data that is the same in every frame: the constraints of a mesh with their rest data, in the order they are
-// projected in, and the masses.
+// What is the same in every frame: the constraints of a mesh with their rest data, in the order in which they are
+// projected, and the masses.
 #pragma once
 
 #include "pbs/constraints/bind.hpp"

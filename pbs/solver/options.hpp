@@ -1,4 +1,6 @@
-// Options of a position based skinning step. Stiffnesses are dimensionless, in [0, 1]; zero leaves the class out.
+// The options of PbsSolver and XpbdSolver. Stiffnesses are dimensionless, in [0, 1]; a stiffness of zero leaves the
+// class of constraints out.
+//   PbsSolver solver(mesh, bind_distance, jiggle_zone, {.iterations = 24, .k_stretch = 0.2});
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -7,25 +9,28 @@
 
 namespace pbs {
 
-// The shape at which a solver begins a frame; the caller gives it. lbs: linear blend skinning with the character's
+// The shape at which a solver begins a frame, which the caller gives. lbs: linear blend skinning with the character's
 // weights, as in the paper. smooth_dqs: dual quaternion skinning with the weights of HeldFlesh::smooth_weights.
 enum class StartShape { lbs, smooth_dqs };
-// Order of projection within each class; the classes follow the order of Algorithm 1. plain: file order, as the paper
-// reads. ordered: colour by colour (constraint_sequence.hpp), sixteen constraints that share no vertex side by side.
-// spread: plain code in the order of in_spread_order (constraint_set.hpp), which is quicker than file order.
+// The order of projection within each class of constraints; the classes follow ClassOrder. plain: the order of the
+// file, which is how the paper reads. ordered: colour by colour (constraint_sequence.hpp), with sixteen constraints
+// side by side that share no vertex. spread: plain code in the order of in_spread_order (constraint_set.hpp), which
+// takes less time than the order of the file.
 enum class Order { plain, ordered, spread };
-// m_i = 1 (the paper), or in proportion to the lumped rest volume; only their ratios count.
+// The masses of the particles, of which only the ratios count. unit: m_i = 1, as in the paper. lumped: in proportion to
+// the lumped rest volume.
 enum class Masses { unit, lumped };
-// The volume correction: derived from Eq. 11 (default), or with one error of Eq. 12-20 at a time, or all of them:
-// labels_relative: Eq. 12-14 under the particles they are printed for, positions relative to p1;
-// labels_absolute: the same with the absolute positions as printed, so it depends on the origin;
-// sign: the derived gradients with the sign printed in Eq. 17-20;
-// as_printed: labels, absolute positions and sign.
+// The form of the volume correction. derived: it follows from Eq. 11. The other forms have one of the errors in print
+// of Eq. 12-20, or all of them (pbs/constraints/volume_printed.hpp):
+//   labels_relative   Eq. 12-14 under the particles that they are printed for, with positions relative to p1
+//   labels_absolute   the same with absolute positions, as printed, so that the correction depends on the origin
+//   sign              the derived gradients with the sign that is printed in Eq. 17-20
+//   as_printed        labels, absolute positions and sign
 enum class VolumeForm { derived, labels_relative, labels_absolute, sign, as_printed };
 
-// The effect of k. per_iteration: each projection removes the share k (the paper). exponent: 1 - (1 - k)^(1 /
-// iterations) (M. Mueller et al., Position based dynamics, VRIPHYS 2006), so that a lone constraint is left with 1 - k
-// of its error whatever the number of iterations.
+// The meaning of k. per_iteration: each projection removes the share k of the error, as in the paper. exponent: each
+// removes 1 - (1 - k)^(1 / iterations) (M. Mueller et al., Position based dynamics, VRIPHYS 2006), so that a lone
+// constraint is left with 1 - k of its error whatever the number of iterations.
 enum class StiffnessForm { per_iteration, exponent };
 
 // The order of the classes within an iteration; bind_stretch_volume is that of Algorithm 1 (lines 11-13).
@@ -43,26 +48,27 @@ enum class ClassOrder {
 // beforehand by what its LBS position has moved since the last step; velocities are relative to that.
 enum class LbsEntry { start, increment };
 
-// A vertex on its bone (d_i = 0) is pinned to its material point, or has no bind constraint.
+// The bind constraint of a vertex that lies on its bone (d_i = 0). pinned: it draws the vertex to its material point.
+// unbound: there is none.
 enum class BindOnBone { pinned, unbound };
 
-// The material point q_i that a vertex is bound to ("its projection on the nearest bone", Sec. 3.6). carried: moved by
-// the bone. reprojected: the projection of the LBS position on the posed bone, anew in each step. Solvers are given the
-// points by their caller.
+// The material point q_i that a vertex is bound to ("its projection on the nearest bone", Sec. 3.6). carried: the
+// projection at rest, which the bone carries along. reprojected: the projection of the LBS position on the posed bone,
+// anew in each step. The caller gives the points to a solver.
 enum class BindPoint { carried, reprojected };
 
-// The mean distance from the nearest bone that a vertex of the jiggling zone exceeds (Sec. 4): that of all vertices, or
-// of the vertices of its own bone. Solvers are given the zone by their caller.
+// The mean distance from the nearest bone that the vertices of the jiggling zone exceed (Sec. 4). of_all: the mean over
+// all vertices. of_bone: the mean over the vertices of their own bone. The caller gives the zone to a solver.
 enum class ZoneMean { of_all, of_bone };
 
-// The bind constraint holds a vertex to one of these. bone_distance: its rest distance from its material point on the
-// bone (Sec. 3.6), which leaves the turn about the bone free. blended_position: its position by LBS in this step, at
-// distance zero, which resists that turn too. With k_bind = 1 it undoes the other constraints in each iteration, so
+// What the bind constraint holds a vertex to. bone_distance: its rest distance from its material point on the bone
+// (Sec. 3.6), which leaves the turn about the bone free. blended_position: its position by LBS in this step, at
+// distance zero, which resists that turn too. With k_bind = 1 it would undo the other constraints in each iteration, so
 // that it needs a small k_bind.
 enum class BindTo { bone_distance, blended_position };
 
-// The volumes that are constrained. tets: each tet's (Sec. 3.5). regions: the sum over each region of about region_tets
-// tets (pbs/geometry/tet_mesh.hpp). tets_and_regions: the tets', then the regions'.
+// The volumes that are constrained. tets: that of each tet (Sec. 3.5). regions: the sum over each region of about
+// region_tets tets (pbs/geometry/tet_mesh.hpp). tets_and_regions: those of the tets, then those of the regions.
 enum class VolumeOf { tets, regions, tets_and_regions };
 
 // Stiffnesses of the jiggling zone, in [0, 1]. A zone that a solver is given jiggles only where options have one of

@@ -1,6 +1,9 @@
-// The particles of Algorithm 1, before and after their projection. Particles outside the jiggling zone start every step
-// at their LBS position and have no velocity; those inside are integrated; with LbsEntry::increment all are, as if all
-// were inside. All in double.
+// The particles of Algorithm 1, before and after their projection, all in double. Particles outside the jiggling zone
+// start every step at their LBS position and have no velocity; those inside are integrated. With LbsEntry::increment,
+// all are integrated as if they were inside.
+//   Particles particles(mesh.rest, jiggle_zone, options);
+//   particles.predict(lbs_positions, dt_s);     // then project particles.predicted()
+//   particles.update(dt_s);
 #pragma once
 
 #include "pbs/geometry/tet_mesh.hpp"
@@ -16,7 +19,7 @@ public:
     // rest: where positions are before the first step [m], #V x 3. jiggle_zone: #V, or empty: nothing is integrated.
     Particles(const Positions& rest, const std::vector<bool>& jiggle_zone, const PbsOptions& options);
 
-    // InputError where the arrays are not of #V rows, or particles are to be integrated and dt [s] is not positive.
+    // InputError if the arrays do not have #V rows, or if particles are to be integrated and dt [s] is not positive.
     void check_input(const Positions& lbs_positions, const Positions& bind_points, double dt_s) const;
 
     void predict(const Positions& lbs_positions, double dt_s);  // lines (2)-(3) in the first step, (6)-(9)

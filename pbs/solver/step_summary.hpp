@@ -1,4 +1,6 @@
-// The summary of one step: residuals, the reason why it stopped, and its time.
+// The summary of one step: its residuals, the reason why it stopped, and its time.
+//   const StepSummary step = solver.advance(lbs_positions, bind_points, dt_s);
+//   if (step.outcome != Outcome::finished) fmt::print("{}", to_string(step.outcome));
 #pragma once
 
 #include "pbs/geometry/cost.hpp"
@@ -9,16 +11,16 @@
 
 namespace pbs {
 
-// Over all constraints of a class, 0 where the class was left out.
+// Residuals over all constraints of a class. A class that was left out has 0.
 struct Residuals {
     double stretch_rms = 0.0;  // rms of l / l0 - 1
     double volume_rms = 0.0;   // rms of V / V0 - 1
     double bind_rms_m = 0.0;   // rms of |x_i - q_i| - d_i [m]
 };
 
-// finished: all iterations, or, where stop_residual is set, residuals below it. not_finite: a position is infinite or
-// NaN; the state is lost, and a jiggling solver has to be made anew. not_converged: stop_residual is set and was not
-// reached; positions are valid.
+// Why a step stopped. finished: all iterations were done, or the residuals are below stop_residual. not_converged:
+// stop_residual is set and was not reached; the positions are valid. not_finite: a position is infinite or NaN; the
+// state is lost, and a solver whose particles jiggle has to be made anew.
 enum class Outcome { finished, not_finite, not_converged };
 const char* to_string(Outcome outcome);  // the value's name, as records have it
 
@@ -39,8 +41,8 @@ template <typename Scalar>
 Residuals residuals_of(const ConstraintSet<Scalar>& constraints, const std::vector<Vector3<Scalar>>& p,
                        const std::vector<Vector3<Scalar>>& q);
 
-// The largest of the three, what stop_residual is compared with: two are ratios, one is in metres. NaN where one is
-// NaN.
+// The largest of the three residuals, with which stop_residual is compared: two are ratios, and one is in metres. NaN
+// if one of them is NaN.
 double largest(const Residuals& residuals);
 
 // All steps of a deformer up to a frame, as one: the last step with the worst outcome of all. A step between two frames
