@@ -8,6 +8,7 @@ import itertools
 import math
 import os
 import pathlib
+import re
 import statistics
 import unittest
 
@@ -117,6 +118,35 @@ class Merged(Concluded):
                 self.assertEqual(own, of_runs, file)
                 self.compared += own.total()
         self.assertGreater(self.compared, 2400)
+
+
+class Cells(unittest.TestCase):
+    """Some columns are for readers: sentences, sources, units and names of hardware. Everything else identifies a row or
+    is a number. A joint is named by its two bones (upper|forearm), either_of and takes are lists, and a setting is a
+    list of KEY=VALUE."""
+    WORDS = {"bound", "bound_from", "cpu_model", "description", "note", "reason", "remark", "source", "unit",
+             "verdict_changed"}
+    WORDS_OF = {"points.csv": {"beside"}, "trials.csv": {"failure", "further_keys"}, "verification.csv": {"mesh"}}
+    MORE = {"joint": "|", "setting": "= ", "either_of": " ", "takes": " "}
+
+    def test_keys_are_identifiers_or_numbers(self):
+        cells = 0
+        for file in sorted(RECORDS.rglob("*.csv*")):
+            name = file.relative_to(RECORDS).as_posix().removesuffix(".gz")
+            rows = table(name)
+            for column in rows[0] if rows else ():
+                if column not in self.WORDS | self.WORDS_OF.get(name.rpartition("/")[2], set()):
+                    allowed = re.compile(rf"[\w.+{self.MORE.get(column, '')}-]*", re.ASCII)
+                    strange = {row[column] for row in rows if not allowed.fullmatch(row[column])}
+                    self.assertEqual(strange, set(), f"{name}: {column}")
+                    cells += len(rows)
+        self.assertGreater(cells, 100_000)
+
+    def test_each_row_of_the_verification_has_a_key_of_its_own(self):
+        names = ("problem", "quantity", "setting", "element_order", "formulation", "material", "poisson", "h_m", "dofs")
+        rows = table("verification/verification.csv")
+        self.assertEqual(len({tuple(row[name] for name in names) for row in rows}), len(rows))
+        self.assertGreater(len(rows), 200)
 
 
 class AcrossStudies(Concluded):
