@@ -17,9 +17,7 @@ endif()
 # A verdict changes with its records: the project's own claims with the values of the studies. A broken solver changes
 # the values and verdicts that it must change by theory, and no others.
 pbs_tests(claims experiments FOLDERS experiments EXCEPT ${left_out} LIBRARIES experiments)
-set(kept_records PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")
-target_compile_definitions(test_claims_experiments PRIVATE ${claims_file} ${kept_records}
-    PBS_ATTACKS_FILE="${PROJECT_SOURCE_DIR}/tests/claims/attacks.toml")
+target_compile_definitions(test_claims_experiments PRIVATE ${claims_file})
 pbs_tests(unit experiments BLAS
     FOLDERS experiments/process experiments/scene experiments/run experiments/deformers experiments/trial
     FILES experiments/deformers/fem/fem_module
@@ -29,7 +27,7 @@ pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies experiments/
     LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments EXCEPT experiments/meshes LIBRARIES experiments)
 pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
-target_compile_definitions(test_regression_experiments PRIVATE ${kept_records})
+target_compile_definitions(test_regression_experiments PRIVATE PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")
 pbs_tests(verification experiments BLAS FOLDERS experiments
     EXCEPT experiments/meshes experiments/clips experiments/characters experiments/deformers/fem
         experiments/studies/verification/calculix experiments/verification_record
