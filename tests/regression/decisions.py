@@ -2,11 +2,9 @@
 them, which needs numpy and shares no code with the program. Reference: the rules in
 analysis/statistics/paired_comparison.hpp.
 
-    decisions.py FOLDER        the attacks, then errors.csv, references.csv, pairs.csv and decisions.csv of the
-                               study's folder, or of work_precision in a folder of studies
-    decisions.py --self-test   the attacks alone: tables that this script makes, with exchanged labels, a member that
-                               is not known, or changed results
-    decisions.py               the attacks, then the kept records if they have these tables
+    decisions.py FOLDER        errors.csv, references.csv, pairs.csv and decisions.csv of the study's folder, or of
+                               work_precision in a folder of studies
+    decisions.py               the kept records
 """
 import argparse
 import bisect
@@ -31,7 +29,7 @@ SIGNIFICANCE, TIED_SHARE, LEVEL_RATIO, REPLICATES = 0.05, 0.8, 1.1, 2000
 PRECISION = 1e-9        # of p and of ratios, relative
 RANGE_PRECISION = 0.15  # of the ends of a range, whose random numbers differ, relative to its width in logarithms
 LEVEL_PRECISION = 0.02  # of the thresholds of `level`, where a range is not recorded
-folder = None           # of the study; set by the command line
+folder = None  # of the study; set by the command line
 
 
 # The comparison.
@@ -280,148 +278,6 @@ def differences_of_decisions(study, key, pairs, without_body):
     return lines
 
 
-# The tests.
-
-class Recorded(unittest.TestCase):
-    def test_decisions_follow_from_the_errors(self):
-        if folder is None:
-            self.skipTest("the kept records have no errors.csv of pairs")
-        self.assertEqual(differences(read(folder)), [])
-
-
-class Steps(unittest.TestCase):
-    """Values by hand."""
-    def test_sign_test_is_exact(self):
-        self.assertEqual([sign_test(*counts) for counts in ((8, 0), (1, 7), (5, 0), (4, 4), (0, 0))],
-                         [2 / 256, 18 / 256, 2 / 32, 1.0, 1.0])
-
-    def test_holm_multiplies_the_smallest_most(self):
-        for own, expected in zip(holm([0.01, 0.04, 0.03, 0.005]), [0.03, 0.06, 0.06, 0.02]):
-            self.assertAlmostEqual(own, expected, 15)
-        self.assertEqual(holm([0.25, 0.25, 0.75]), [0.75, 0.75, 0.75])
-
-    def test_ties_are_within_u_and_poses_without_numbers_are_skipped(self):
-        member = compared({"a": 1, "b": 2, "c": 4, "d": 1, "e": math.nan}, {"a": 3, "b": 3, "c": 3, "d": 2, "e": 1},
-                          {"a": 1, "b": 1, "c": 0, "d": math.nan, "e": 1})
-        self.assertEqual((member.wins, member.ties, member.losses), (1, 1, 1))
-        self.assertAlmostEqual(member.ratio, (3 * 1.5 * 0.75) ** (1 / 3), 15)
-
-    def test_level_holds_for_reciprocals(self):
-        for low, high, close in ((0.905, 0.99, False), (1 / 0.99, 1 / 0.905, False), (0.915, 1.09, True),
-                                 (0.915, 1.12, False)):
-            self.assertEqual(is_close(low, high, 0.0), close, (low, high))
-
-
-# The errors by member.
-SYNTHETIC = {"near": (1.0, 1.0, 1.0), "same": (1.02, 1.02, 1.02), "far": (3.0, 3.0, 3.0), "mixed": (0.4, 1.0, 2.5)}
-MEMBERS = ("smooth", "nu_0.3", "capsules")
-
-
-def synthetic(exchanged=lambda index: False, unknown_member=None):
-    """Tables of four methods, whose errors scatter about those of the poses: errors.csv and references.csv, with the
-    other two recomputed. The errors of "near" and "far" are exchanged in some poses. The deep folds have the opposite
-    errors and must not take part."""
-    generator = random.Random(7)
-    tables = {name: [] for name in TABLES}
-    for index in range(48):
-        pose = {"pose": f"pose_{index}", "body": f"body_{index % 4}", "stratum": "movement" if index < 40 else "fold"}
-        for name in MEMBERS:
-            known = name != unknown_member
-            tables["references"].append({**pose, "member": name, "outcome": "reached" if known else "stopped",
-                                         "own_error_pct": "0.3" if known else ""})
-        size = {name: 10 * math.exp(generator.gauss(0, 0.5)) for name in MEMBERS}
-        for method in SYNTHETIC:
-            source = {"near": "far", "far": "near"}.get(method, method) if index >= 40 or exchanged(index) else method
-            scatter = 0.05 if method in ("same", "near") else 0.3
-            cells = {f"{name}_pct": repr(size[name] * SYNTHETIC[source][m] * math.exp(generator.gauss(0, scatter)))
-                     for m, name in enumerate(MEMBERS)}
-            tables["errors"].append({"table": "known", "budget_ms": "1", "method": method, **pose, "ms": "0.5",
-                                     "skin_mm": "1", **cells})
-    return with_results(tables)
-
-
-def with_results(tables):
-    study, key = Study(tables), ("known", 1.0)
-    pairs = list(itertools.combinations(SYNTHETIC, 2))
-    for body in ("", *sorted(set(study.body_of.values()))):
-        comparison = study.comparison(key, pairs, body)
-        for first, second in pairs:
-            names = {"table": "known", "budget_ms": "1", "first": first, "second": second}
-            members = comparison.pairs[first, second]
-            usable = [member for member in members.values() if member.log_ratio]
-            tables["decisions"].append({**names, "without_body": body,
-                                        "decision": decision(usable, is_level(usable, comparison.range_of))})
-            for name, member in members.items() if not body else ():
-                low, high = map(repr, comparison.range_of(member)) if member.log_ratio else ("", "")
-                tables["pairs"].append({**names, "member": name,
-                                        **{cell: repr(getattr(member, cell))
-                                           for cell in ("wins", "ties", "losses", "p", "p_holm")},
-                                        "ratio": repr(member.ratio) if member.log_ratio else "", "ratio_low": low,
-                                        "ratio_high": high})
-    return tables
-
-
-def decisions_of(tables, without_body=""):
-    return {(row["first"], row["second"]): row["decision"] for row in tables["decisions"]
-            if row["without_body"] == without_body}
-
-
-class Attacks(unittest.TestCase):
-    """The true answers are known by construction."""
-    def test_decisions_are_those_of_the_construction(self):
-        tables = synthetic()
-        self.assertEqual(differences(tables), [])
-        self.assertEqual(decisions_of(tables), {
-            ("near", "same"): "level", ("near", "far"): "first_is_nearer", ("near", "mixed"): "depends",
-            ("same", "far"): "first_is_nearer", ("same", "mixed"): "depends", ("far", "mixed"): "open"})
-        self.assertEqual(decisions_of(tables, "body_2"), decisions_of(tables))
-
-    def test_labels_exchanged_in_half_of_the_poses_leave_the_answer_open(self):
-        self.assertEqual(decisions_of(synthetic(lambda index: index % 8 < 4))["near", "far"], "open")
-
-    def test_labels_exchanged_in_all_poses_reverse_the_answer(self):
-        self.assertEqual(decisions_of(synthetic(lambda index: True))["near", "far"], "second_is_nearer")
-
-    def test_a_member_without_own_error_changes_nothing(self):
-        known, unknown = synthetic(), synthetic(unknown_member="nu_0.3")
-        self.assertEqual(differences(unknown), [])
-        self.assertEqual(decisions_of(unknown), decisions_of(known))
-        self.assertEqual([row for row in unknown["pairs"] if row["member"] != "nu_0.3"],
-                         [row for row in known["pairs"] if row["member"] != "nu_0.3"])
-        self.assertEqual({row["ratio"] for row in unknown["pairs"] if row["member"] == "nu_0.3"}, {""})
-
-    def test_each_changed_result_is_found(self):
-        def scaled(cell, factor):
-            return lambda row: row.update({cell: repr(float(row[cell]) * factor)})
-
-        changes = {
-            "wins": ("pairs", lambda row: row.update(wins=str(int(row["wins"]) + 1))),
-            "ties": ("pairs", lambda row: row.update(ties=str(int(row["ties"]) - 1))),
-            "p": ("pairs", scaled("p", 1 + 1e-8)),
-            "p_holm": ("pairs", scaled("p_holm", 1 + 1e-8)),
-            "ratio": ("pairs", scaled("ratio", 1 + 1e-8)),
-            "end of the range": ("pairs", scaled("ratio_high", 1.05)),
-            "beginning of the range": ("pairs", scaled("ratio_low", 0.95)),
-            "ratio outside of the range": ("pairs", lambda row: row.update(ratio_low=row["ratio_high"])),
-            "member": ("pairs", dict.clear),
-            "decision": ("decisions", lambda row: row.update(decision="open")),
-            "pair": ("decisions", dict.clear)}
-        for name, (table, change) in changes.items():
-            with self.subTest(name):
-                tables = synthetic()
-                row = next(row for row in tables[table] if (row["first"], row["second"]) == ("near", "far"))
-                change(row)
-                tables[table] = [row for row in tables[table] if row]
-                self.assertEqual(len(differences(tables)), 1)
-
-    def test_a_changed_decision_without_a_body_is_found(self):
-        tables = synthetic()
-        row = next(row for row in tables["decisions"] if row["without_body"] == "body_1"
-                   and row["decision"] == "depends")
-        row["decision"] = "level"
-        self.assertEqual(len(differences(tables)), 1)
-
-
 def study_folder(given):
     for candidate in (given, given / STUDY):
         if all((candidate / f"{name}.csv").is_file() for name in TABLES):
@@ -429,13 +285,16 @@ def study_folder(given):
     return None
 
 
+class Recorded(unittest.TestCase):
+    def test_decisions_follow_from_the_errors(self):
+        self.assertEqual(differences(read(folder)), [])
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", nargs="?", type=pathlib.Path)
-    parser.add_argument("--self-test", action="store_true")
-    arguments = parser.parse_args()
-    if not arguments.self_test:
-        folder = study_folder(arguments.folder or KEPT)
-        if arguments.folder and not folder:
-            parser.error(f"{arguments.folder}: expected a folder with {', '.join(f'{name}.csv' for name in TABLES)}")
-    unittest.main(argv=sys.argv[:1], defaultTest=["Steps", "Attacks"] + ["Recorded"] * (not arguments.self_test))
+    parser.add_argument("folder", nargs="?", type=pathlib.Path, default=KEPT)
+    given = parser.parse_args().folder
+    folder = study_folder(given)
+    if not folder:
+        parser.error(f"{given}: expected a folder with {', '.join(f'{name}.csv' for name in TABLES)}")
+    unittest.main(argv=sys.argv[:1])
