@@ -1,7 +1,7 @@
 // The project's own claims, and the values that a study's own runs measure for them.
 //   const analysis::Records records = test_support::records_of(experiments::audit_study().plan(false));
 //   judge(test_support::claim("C13"), records)
-//   verdict_on("C09", jiggle_values("limb", measured))
+//   verdict_from("C09", jiggle_values("limb", measured))
 #pragma once
 
 #include "analysis/records/record_files.hpp"
@@ -30,41 +30,11 @@ inline analysis::Verdict verdict_from(const std::string& id, const std::vector<a
     return judge(claim(id), {.measurements = measured});
 }
 
-// Its kind.
-inline analysis::VerdictKind verdict_on(const std::string& id, const std::vector<analysis::Measurement>& measured)
-{
-    return verdict_from(id, measured).kind;
-}
-
-inline std::vector<analysis::Measurement> joined(const std::vector<std::vector<analysis::Measurement>>& lists)
-{
-    std::vector<analysis::Measurement> all;
-    for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
-    return all;
-}
-
 // The claim's own cases, whatever its controls are.
 inline analysis::Judged own_cases(const std::string& id, const std::vector<analysis::Measurement>& measured)
 {
     const analysis::Claim of = claim(id);
     return judged(of, of.own, measured);
-}
-
-// Every quantity on which the claim is judged is written.
-inline void expect_quantities_of(const std::string& id, const std::vector<analysis::Measurement>& measured)
-{
-    for (const std::string& quantity : claim(id).own.quantities)
-        EXPECT_NE(std::ranges::find(measured, quantity, &analysis::Measurement::quantity), measured.end()) << quantity;
-}
-
-// The claim itself and each of its controls and comparisons has a value.
-inline void expect_values_of(const std::string& id, const std::vector<analysis::Measurement>& measured)
-{
-    const analysis::Claim of = claim(id);
-    std::vector<analysis::Selection> selections = of.others;
-    selections.push_back(of.own);
-    for (const analysis::Selection& one : selections)
-        EXPECT_FALSE(judged(of, one, measured).cases.empty()) << id << " " << one.name;
 }
 
 // Carries out the first `runs` runs of the plan, like `pbskin reproduce`.

@@ -1,5 +1,4 @@
-// C03 and C12 are judged from the values that the convergence study writes: if the paths behind them are altered, the
-// verdicts change.
+// C03 and C12 from the values that the convergence study writes, with the correct solver and with broken ones.
 
 #include "experiments/studies/convergence/convergence_case.hpp"
 #include "experiments/studies/shared/posed_character.hpp"
@@ -12,9 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 
 namespace {
@@ -22,106 +19,6 @@ namespace {
 using namespace experiments;
 using namespace test_support;
 using analysis::Measurement;
-using analysis::VerdictKind;
-
-// Sixteen poses of a body, of which the last `others` have other paths.
-std::vector<ConvergencePaths> poses(const ConvergencePaths& first, int others, const ConvergencePaths& other)
-{
-    std::vector<ConvergencePaths> all;
-    for (int i = 0; i < 16; ++i) {
-        ConvergencePaths& one = all.emplace_back(i < 16 - others ? first : other);
-        one.of.pose = one.key.pose = "pose " + std::to_string(i);
-    }
-    return all;
-}
-
-ConvergencePaths altered(ConvergencePaths paths, const std::function<void(ConvergencePaths&)>& alter)
-{
-    alter(paths);
-    return paths;
-}
-
-struct JudgedPaths {
-    const char *name, *claim;
-    VerdictKind kind;
-    ConvergencePaths first;
-    int others = 0;
-    ConvergencePaths other = {};
-};
-
-// Reference: the rules in experiments/verdicts/claims.toml. A rate r needs ceil(log 0.05 / log r) iterations: 14 for
-// 0.8, 19 for 0.85, 24 for 0.88, 26 for 0.89, 59 for 0.95. A coin reaches 14 of 16 cases with a probability of 137 /
-// 2^16, and 12 with 2517 / 2^16.
-TEST(ConvergenceVerdict, FollowsFromThePaths)
-{
-    using enum VerdictKind;
-    const ConvergencePaths lbs_is_best = papers_paths({0.8, 0.9, 0.95, 0.85}),
-                           rigid_is_best = papers_paths({0.95, 0.9, 0.95, 0.85}),
-                           all_alike = papers_paths({0.8, 0.8, 0.8, 0.8}),
-                           neither = papers_paths({0.999, 0.5, 0.5, 0.999}),
-                           in_24 = papers_paths({0.88, 0.9, 0.9, 0.9}), in_26 = papers_paths({0.89, 0.9, 0.9, 0.9});
-    const auto of_another_order =
-        altered(lbs_is_best, [](ConvergencePaths& of) { of.of.order = "ordered", of.of.precision = "f32"; });
-    const auto random_is_quick = altered(lbs_is_best, [](ConvergencePaths& of) { of.controls[1] = of.paths[0]; });
-    const auto second_is_slow = altered(lbs_is_best, [](ConvergencePaths& of) { of.controls[0] = of.paths[3]; });
-    const auto without_controls = altered(lbs_is_best, [](ConvergencePaths& of) { of.controls.clear(); });
-    const JudgedPaths cases[] = {
-        {"the rigid bind takes longer", "C03", holds, lbs_is_best},
-        {"in 14 of 16", "C03", mixed, lbs_is_best, 2, rigid_is_best},
-        {"in 12 of 16, which a coin reaches", "C03", not_shown, lbs_is_best, 4, rigid_is_best},
-        {"LBS takes longer", "C03", fails, rigid_is_best},
-        {"no guess is better", "C03", fails, all_alike},
-        {"where neither arrives there is no case", "C03", holds, lbs_is_best, 8, neither},
-        {"random positions arrive as early", "C03", inconclusive, random_is_quick},
-        {"LBS takes longer than LBS", "C03", inconclusive, second_is_slow},
-        {"without controls", "C03", inconclusive, without_controls},
-        {"another order", "C03", inconclusive, of_another_order},
-        {"a twist", "C03", inconclusive, altered(lbs_is_best, [](ConvergencePaths& of) { of.twist = true; })},
-        {"24 iterations", "C12a", holds, in_24},
-        {"26 iterations in 2 of 16", "C12a", mixed, in_24, 2, in_26},
-        {"26 iterations in 4 of 16, which a coin reaches", "C12a", not_shown, in_24, 4, in_26},
-        {"26 iterations", "C12a", fails, in_26},
-        {"more than 1000 iterations", "C12a", fails, neither},
-        {"another order", "C12a", inconclusive, of_another_order},
-        {"limbs", "C12a", inconclusive, altered(in_24, [](ConvergencePaths& of) { of.character = false; })}};
-    for (const auto& [name, id, kind, first, others, other] : cases)
-        EXPECT_EQ(verdict_on(id, values_of_paths(poses(first, others, other))), kind) << name;
-}
-
-// The author's later code takes 5 iterations to its own floor.
-TEST(ConvergenceVerdict, ComparesTheAuthorsLaterCode)
-{
-    const auto of = altered(papers_paths({0.89, 0.9, 0.9, 0.9}),
-                            [](ConvergencePaths& one) { one.author = path_to_floor(1000, 3.0, 3.0, 0.5); });
-    const analysis::Verdict verdict = verdict_from("C12a", values_of_paths(poses(of, 0, {})));
-    EXPECT_EQ(verdict.kind, VerdictKind::fails);
-    const auto author = std::ranges::find(verdict.others, "the author's later code",
-                                          [](const auto& one) { return one.selection.name; });
-    ASSERT_NE(author, verdict.others.end());
-    EXPECT_EQ(author->held, 16);
-    EXPECT_EQ(author->n, 16);
-}
-
-// The limb's bend on four sizes, which need these iterations.
-VerdictKind of_ladder(const std::array<int, 4>& iterations)
-{
-    std::vector<ConvergencePaths> ladder;
-    for (std::size_t i = 0; i < iterations.size(); ++i) {
-        ConvergencePaths& one = ladder.emplace_back(papers_paths({0.5}));
-        one.of.vertices = 500 << i;
-        one.key = {.motion = "bend", .angle_deg = 90.0};
-        one.paths = {path_by(1000, [least = iterations[i]](int n) { return n < least ? 2.0 : 1.0; })};
-    }
-    return verdict_on("C12b", convergence_conclusions(values_of_paths(ladder, true)));
-}
-
-TEST(ConvergenceVerdict, FollowsFromTheExponentOfTheLadder)
-{
-    EXPECT_EQ(of_ladder({13, 20, 31, 46}), VerdictKind::holds);
-    EXPECT_EQ(of_ladder({46, 31, 20, 13}), VerdictKind::fails);
-    EXPECT_EQ(of_ladder({20, 20, 20, 20}), VerdictKind::fails);
-    EXPECT_EQ(of_ladder({31, 13, 46, 20}), VerdictKind::mixed) << "sizes shuffled";
-}
 
 // A limb bent by 15 degrees, at which the correct solver restores the volume from every initial guess, iterated by the
 // correct solver and by broken ones. Reference:

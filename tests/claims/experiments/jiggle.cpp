@@ -1,131 +1,3 @@
-// C09a and C09b are judged from the values that the study of jiggle writes: if the responses behind them are altered,
-// the verdicts change. Reference: the project's own claims.toml; invented flesh that comes to rest and whose amplitude
-// falls with k_stretch.
-
-#include "experiments/characters/bone_capsules.hpp"
-#include "experiments/studies/jiggle/jiggle_records.hpp"
-#include "experiments/studies/shared/posed_character.hpp"
-#include "pbs/solver/options.hpp"
-#include "tests/support/broken_solver.hpp"
-#include "tests/support/jiggle_responses.hpp"
-#include "tests/support/study_claims.hpp"
-
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <map>
-#include <tuple>
-
-namespace jiggle_tests {
-namespace {
-
-using namespace analysis;
-using namespace experiments;
-using namespace test_support;
-
-using Change = std::function<void(ResponseRow&)>;
-
-// One change at a time, as in the study.
-std::vector<ResponseRow> settings_of_a_body()
-{
-    std::vector<ResponseRow> settings = {
-        {}, {.time_step_ms = 5.0}, {.iterations = 96}, {.k_bind = 0.0}, {.masses = "lumped"}};
-    for (const double k_stretch : {0.05, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0}) settings.push_back({.k_stretch = k_stretch});
-    return settings;
-}
-
-// Damping 0.1, 1 % of the peak left, and an amplitude that falls by a half over k_stretch.
-std::vector<Measurement> flesh(const std::string& body, const Change& change)
-{
-    std::vector<ResponseRow> measured;
-    for (const ResponseRow& setting : settings_of_a_body()) {
-        ResponseRow& one = measured.emplace_back(swinging(setting, 10.0));
-        one.response.left_over_peak = 0.01;
-        one.response.overshoot_over_jolt = 0.4 - 0.2 * setting.k_stretch;
-        change(one);
-    }
-    return jiggle_values(body, measured);
-}
-
-void as_it_is(ResponseRow&)
-{
-}
-
-void swing_for_ever(ResponseRow& one)
-{
-    one.response.swing.damping_ratio = {};
-    one.response.left_over_peak = 0.9;
-}
-
-void ignore_k_stretch(ResponseRow& one)
-{
-    one.response.overshoot_over_jolt = 0.3;
-}
-
-// Five bodies, of which some are changed, and controls that behave.
-Verdict verdict(const std::string& id, const Change& change, int changed = 5)
-{
-    std::vector<std::vector<Measurement>> all;
-    const auto add = [&](int body, const char* deformer, const Change& of) {
-        all.push_back(flesh("body " + std::to_string(body), of));
-        for (Measurement& one : all.back()) one.of.deformer = deformer;
-    };
-    for (int body = 0; body < 5; ++body) {
-        add(body, "pbs", body < changed ? change : as_it_is);
-        add(body, "fem_undamped", swing_for_ever);
-        add(body, "fem_damped", as_it_is);
-        add(body, "lbs", ignore_k_stretch);
-    }
-    return verdict_from(id, joined(all));
-}
-
-TEST(JiggleVerdict, HoldsForFleshThatComesToRestAndFallsWithKStretch)
-{
-    for (const char* id : {"C09a", "C09b"}) {
-        const Verdict judged = verdict(id, as_it_is);
-        EXPECT_EQ(judged.kind, VerdictKind::holds) << id;
-        EXPECT_EQ(judged.own.n, 5) << id;
-        for (const Judged& control : judged.others)
-            EXPECT_TRUE(control.behaves) << id << ", " << control.selection.name;
-    }
-}
-
-TEST(JiggleVerdict, TurnsWithTheRestAndTheAmplitudesOfTheBodies)
-{
-    const std::tuple<const char*, const char*, Change> wrong[] = {
-        {"C09a", "it swings for ever", swing_for_ever},
-        {"C09a", "a tenth is left", [](ResponseRow& one) { one.response.left_over_peak = 0.1; }},
-        {"C09a", "its amplitude grows",
-         [](ResponseRow& one) {
-             one.response.swing.damping_ratio = {-0.2, -0.3, -0.1};
-         }},
-        {"C09a", "nothing swings", [](ResponseRow& one) { one = creeping(one); }},
-        {"C09a", "one setting breaks down", [](ResponseRow& one) { one.response.finished = one.iterations != 96; }},
-        {"C09b", "k_stretch does not move it", ignore_k_stretch},
-        {"C09b", "k_stretch hardly moves it",
-         [](ResponseRow& one) { one.response.overshoot_over_jolt = 0.4 - 0.05 * one.k_stretch; }},
-        {"C09b", "k_stretch raises it",
-         [](ResponseRow& one) { one.response.overshoot_over_jolt = 0.2 + 0.2 * one.k_stretch; }},
-        {"C09b", "it rises first", [](ResponseRow& one) {
-             one.response.overshoot_over_jolt = one.k_stretch < 0.4 ? one.k_stretch : 0.4 - 0.2 * one.k_stretch;
-         }}};
-    for (const auto& [id, why, change] : wrong) {
-        EXPECT_EQ(verdict(id, change).kind, VerdictKind::fails) << why;
-        EXPECT_EQ(verdict(id, change, 3).kind, VerdictKind::fails) << why;
-        EXPECT_EQ(verdict(id, change, 1).kind, VerdictKind::mixed) << why;
-    }
-}
-
-// Loose flesh, lumped masses and, for C09b, other time steps and iterations are no part of the claims.
-TEST(JiggleVerdict, OtherReadingsDoNotTurnIt)
-{
-    const Change otherwise = [](ResponseRow& one) {
-        if (one.k_bind < 1.0 || one.masses == "lumped") swing_for_ever(one);
-        if (key_of("", one) != key_of("", {.k_stretch = one.k_stretch})) one.response.overshoot_over_jolt = 1.0;
-    };
-    for (const char* id : {"C09a", "C09b"}) EXPECT_EQ(verdict(id, otherwise).kind, VerdictKind::holds) << id;
-}
-
 // C09 from a small limb jolted along its bones by 2 mm, with the correct solver and with broken ones, all in the order
 // plain. Reference:
 // - nothing projected: nothing pulls the flesh after the skeleton, so it lags behind by the whole jolt for ever and
@@ -137,6 +9,23 @@ TEST(JiggleVerdict, OtherReadingsDoNotTurnIt)
 //   jolt along the spheres of the bind constraints was expected not to involve them, but they hold the parts to which
 //   the flesh is attached.
 // - any: half the time step still gives twice the frequency, since Algorithm 1 contains steps but no time.
+#include "experiments/characters/bone_capsules.hpp"
+#include "experiments/studies/jiggle/jiggle_records.hpp"
+#include "experiments/studies/shared/posed_character.hpp"
+#include "pbs/solver/options.hpp"
+#include "tests/support/broken_solver.hpp"
+#include "tests/support/study_claims.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace jiggle_tests {
+namespace {
+
+using namespace analysis;
+using namespace experiments;
+using namespace test_support;
 
 const JoltCase small_limb{.scene = "limb_twist",
                           .overrides = {"character.vertices=300", "pbs.k_stretch=1", "pbs.jiggle.k_stretch=0.1",

@@ -1,6 +1,10 @@
-// C07 is judged from the momentum study's own values: if they are altered, the verdict changes. Reference: Newton's
-// third law; projections with the masses of the momentum conserve it, and Eq. 8-9 for m = 1 on unequal masses do not.
-
+// C07 from correct and broken projections. Reference:
+// - volume sign: corrections are reversed and still add up to zero, so the verdict must stay (Eq. 3-4 require no more).
+// - printed labels: gradients at the wrong particles still add up to zero (Eq. 15), but their moments do not: angular
+// momentum is lost,
+//   linear momentum is not.
+// - a class dropped: a class that is not projected has no drift, so it is not counted as conserved.
+// A case is a class and linear or angular momentum.
 #include "experiments/studies/momentum/momentum_drift.hpp"
 #include "tests/support/bar_character.hpp"
 #include "tests/support/broken_solver.hpp"
@@ -14,48 +18,6 @@ namespace {
 
 using namespace experiments;
 using namespace test_support;
-using analysis::VerdictKind;
-
-const analysis::Records& records_of_limb()
-{
-    static const analysis::Records records = records_of(momentum_study().plan(false));
-    return records;
-}
-
-// Two classes, two precisions, linear and angular momentum. 1e-9 is rounding in f32, and no rounding in f64.
-TEST(MomentumVerdict, HoldsWhereMassesAreKnownAndTurnsWithItsValues)
-{
-    const analysis::Verdict verdict = judge(claim("C07"), records_of_limb());
-    EXPECT_EQ(verdict.kind, VerdictKind::holds);
-    EXPECT_EQ(verdict.own.held, 8);
-    EXPECT_EQ(verdict.own.n, 8);
-    for (const analysis::Judged& control : verdict.others) EXPECT_TRUE(control.behaves) << control.selection.name;
-    const auto kind_with = [](const auto& change) {
-        analysis::Records records = records_of_limb();
-        for (auto& measured : records.measurements) change(measured);
-        return judge(claim("C07"), records).kind;
-    };
-    for (const auto& [drift, kind] :
-         {std::pair(1e-13, VerdictKind::holds), {1e-9, VerdictKind::fails}, {0.1, VerdictKind::fails}})
-        EXPECT_EQ(kind_with([drift = drift](analysis::Measurement& one) {
-                      if (one.of.masses == "equal") one.value = one.low = one.high = drift;
-                  }),
-                  kind)
-            << drift;
-    EXPECT_EQ(kind_with([](analysis::Measurement& one) {  // labels exchanged
-                  const std::string masses = one.of.masses;
-                  if (masses == "equal") one.of.masses = "unequal_by_eq_8_9";
-                  if (masses == "unequal_by_eq_8_9") one.of.masses = "equal";
-              }),
-              VerdictKind::inconclusive);
-}
-
-// C07 from correct and broken projections. Reference:
-// - volume sign: corrections are reversed and still add up to zero, so the verdict must stay (Eq. 3-4 require no more).
-// - printed labels: gradients at the wrong particles still add up to zero (Eq. 15), but their moments do not: angular
-//   momentum is lost, linear momentum is not.
-// - a class dropped: a class that is not projected has no drift, so it is not counted as conserved.
-// A case is a class and linear or angular momentum.
 
 using analysis::Measurement;
 using pbs::Masses;
