@@ -15,7 +15,7 @@ class TouchingParts(TrialTest):
     artist's, as the skinning formula of glTF has it, within the bound of the warning."""
 
     def check(self, model_file, first, second, without=("--no-reference",)):
-        facts, printed = self.tried(model_file, "--paraview", without=without, vertices="2000")
+        facts, printed = self.tried(model_file, "--paraview", without=without, vertices="800")
         model, files = skin_formula.Model(model_file), self.points("frames", "lbs_surface_*.vtp")
         self.assertEqual(len(files), FRAMES)
         size = numpy.linalg.norm(numpy.ptp(model.points(None, None), axis=0))

@@ -164,25 +164,23 @@ class TrialFiles(TrialTest):
         self.write("viewer.js", "// a viewer")
         words = ["try", self.rig(), "-o", self.path("out"), "--frames", "12", "--vertices", "300"]
         environment = {**os.environ, "PBS_VIEWER_BUILD": self.folder}
-        for sent in (signal.SIGINT, signal.SIGTERM):
-            with self.subTest(sent), subprocess.Popen([program.PBSKIN, *words], stdout=subprocess.DEVNULL,
-                                                      stderr=subprocess.PIPE, text=True, env=environment) as trial:
-                printed = ""
-                while "solving the reference" not in printed:
-                    line = trial.stderr.readline()
-                    self.assertTrue(line, printed)
-                    printed += line
-                trial.send_signal(sent)
-                printed += trial.stderr.read()
-                self.assertEqual(trial.wait(), 130, printed)
-                self.assertIn("interrupted; what is finished is written now (a second interruption ends this too)",
-                              printed)
-                self.assertIn("report.html has what was finished, and the same command goes on from there", printed)
-                facts = self.json("out", "try.json")
-                self.assertTrue(facts["interrupted"])
-                self.assertEqual(facts["frames"], 12)  # of the methods
-                self.assertLess(facts["reference_frames"]["solved"], 12)
-                self.assertIn("<html", self.read("out", "report.html"))
+        with subprocess.Popen([program.PBSKIN, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                              env=environment) as trial:
+            printed = ""
+            while "solving the reference" not in printed:
+                line = trial.stderr.readline()
+                self.assertTrue(line, printed)
+                printed += line
+            trial.send_signal(signal.SIGTERM)
+            printed += trial.stderr.read()
+            self.assertEqual(trial.wait(), 130, printed)
+        self.assertIn("interrupted; what is finished is written now (a second interruption ends this too)", printed)
+        self.assertIn("report.html has what was finished, and the same command goes on from there", printed)
+        facts = self.json("out", "try.json")
+        self.assertTrue(facts["interrupted"])
+        self.assertEqual(facts["frames"], 12)  # of the methods
+        self.assertLess(facts["reference_frames"]["solved"], 12)
+        self.assertIn("<html", self.read("out", "report.html"))
         solved = facts["reference_frames"]["solved"]
         self.succeeds(*words, env=environment)
         facts = self.json("out", "try.json")
