@@ -425,7 +425,7 @@ class ReportRecords(ReportTest):
         self.assertEqual(self.made(), (0, "", True))
 
     def test_a_value_of_another_kind_is_refused_by_file_field_value_and_rule(self):
-        self.assertEqual(len(REFUSED), 46)
+        self.assertEqual(len(REFUSED), 25)
         for name, place, value, words in REFUSED:
             with self.subTest(f"{name} {place} {value[:40]}"):
                 whole, keys = self.record(name), [int(key) if key.isdigit() else key for key in place.split(".") if key]
