@@ -5,7 +5,6 @@
 #include "experiments/studies/jiggle/jiggle_records.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
-#include "tests/support/jiggle_responses.hpp"
 #include "tests/support/rounding_error.hpp"
 #include "tests/support/step_rounding.hpp"
 
@@ -18,8 +17,24 @@
 namespace {
 
 using experiments::ResponseRow;
-using test_support::creeping;
-using test_support::swinging;
+
+// Invented responses of flesh to a jolt.
+ResponseRow swinging(ResponseRow setting, double hz, double width = 0.1)
+{
+    setting.response = {.overshoot_over_jolt = 0.3};
+    setting.response.swing.outcome = analysis::OscillationOutcome::found;
+    setting.response.swing.frequency_hz = {hz, (1.0 - width) * hz, (1.0 + width) * hz};
+    setting.response.swing.damping_ratio = {0.1, 0.08, 0.12};
+    return setting;
+}
+
+ResponseRow creeping(const ResponseRow& setting)
+{
+    ResponseRow measured = swinging(setting, 0.0);
+    measured.response.swing = {};
+    measured.response.swing.outcome = analysis::OscillationOutcome::overdamped;
+    return measured;
+}
 
 std::vector<analysis::Measurement> of_quantity(const std::vector<ResponseRow>& measured, const std::string& quantity)
 {
