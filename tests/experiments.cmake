@@ -27,7 +27,8 @@ pbs_tests(unit experiments_studies BLAS FOLDERS experiments/studies experiments/
     LIBRARIES experiments)
 pbs_tests(properties experiments FOLDERS experiments EXCEPT experiments/meshes LIBRARIES experiments)
 pbs_tests(regression experiments FOLDERS experiments LIBRARIES experiments)
-target_compile_definitions(test_regression_experiments PRIVATE PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")
+target_compile_definitions(test_regression_experiments PRIVATE
+    PBS_KEPT_RECORDS="${PROJECT_SOURCE_DIR}/experiments/records/full")
 pbs_tests(verification experiments BLAS FOLDERS experiments
     EXCEPT experiments/meshes experiments/clips experiments/characters experiments/deformers/fem
         experiments/studies/verification/calculix experiments/verification_record

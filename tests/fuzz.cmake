@@ -63,7 +63,8 @@ fuzz_target(fuzz/clip.cpp pbs_characters
     experiments/clips/clip.cpp experiments/clips/joint_names.cpp experiments/clips/retarget.cpp pbs/skinning/pose.cpp
     pbs/geometry/input_error.cpp)
 if(PBS_WITH_FUZZ)
-    target_include_directories(fuzz_clip PRIVATE ${PROJECT_BINARY_DIR}/experiments/clips)  # its table of names as a text
+    # its table of names as a text
+    target_include_directories(fuzz_clip PRIVATE ${PROJECT_BINARY_DIR}/experiments/clips)
 endif()
 fuzz_target(fuzz/rig.cpp pbs_rigs
     experiments/rigs/rigged_body.cpp experiments/rigs/gltf_rig.cpp experiments/rigs/gltf_model.cpp

@@ -121,8 +121,8 @@ class Merged(Concluded):
 
 
 class Cells(unittest.TestCase):
-    """Some columns are for readers: sentences, sources, units and names of hardware. Everything else identifies a row or
-    is a number. A joint is named by its two bones (upper|forearm), either_of and takes are lists, and a setting is a
+    """Some columns are for readers: sentences, sources, units and names of hardware. Everything else identifies a row
+    or is a number. A joint is named by its two bones (upper|forearm), either_of and takes are lists, and a setting is a
     list of KEY=VALUE."""
     WORDS = {"bound", "bound_from", "cpu_model", "description", "note", "reason", "remark", "source", "unit",
              "verdict_changed"}

@@ -515,7 +515,8 @@ def is_ratio(quantity):
 def with_value(row, value, low=None, high=None, **limit):
     """The row with another value, and with its range, which otherwise is the value itself."""
     kept = {name: cell for name, cell in row.items() if name != "limit"}
-    return kept | {"value": value, "low": value if low is None else low, "high": value if high is None else high} | limit
+    ends = {"low": value if low is None else low, "high": value if high is None else high}
+    return kept | {"value": value} | ends | limit
 
 
 def inverted(row):
@@ -533,7 +534,8 @@ class Attacked:
         self.claim, self.own, self.quantities = claim, claim.get("of", {}), claim["quantities"]
         others = [*claim.get("controls", []), *claim.get("compared", [])]
         same = ("quantities", self.quantities), ("over", claim.get("over", {}))  # of a label that can change places
-        self.alike = {other["name"]: other["of"] for other in others if all(other.get(name, of) == of for name, of in same)}
+        self.alike = {other["name"]: other["of"] for other in others
+                      if all(other.get(name, of) == of for name, of in same)}
         selections = [(self.quantities, of) for of in (self.own, claim.get("over", self.own))]
         selections += [(other.get("quantities", self.quantities), of) for other in others
                        for of in (other["of"], other.get("over", claim.get("over", other["of"])))]
@@ -579,7 +581,8 @@ class Attacked:
         for _ in range(PERMUTATIONS):
             rows = list(self.rows)
             for labels in cases:
-                values = [statistics.fmean(float(rows[place]["value"]) for place in of_label) for of_label in labels] + unity
+                values = [statistics.fmean(float(rows[place]["value"]) for place in of_label)
+                          for of_label in labels] + unity
                 source.shuffle(values)
                 over = values[-1] if unity else 1.0
                 for value, places in zip(values, labels):
@@ -600,8 +603,8 @@ class Attacked:
 
 
 class WrongData(unittest.TestCase):
-    """A verdict that holds or is mixed is lost on wrong data, unless attacks.toml states why the sentence stays true; one
-    that is lost does not turn into one that holds. Reference: that table, which was written before the attacks ran."""
+    """A verdict that holds or is mixed is lost on wrong data, unless attacks.toml states why the sentence stays true;
+    one that is lost does not turn into one that holds. Reference: that table, which was written before the attacks ran."""
 
     def expect(self, attacked, attack, kinds):
         if attack not in self.reasons:

@@ -2,6 +2,7 @@
 // earlier versions concluded while they measured. They are compared as written, since a control without amplitude
 // concludes that a ratio is no number.
 #include "analysis/records/record_files.hpp"
+#include "analysis/verdicts/measurement.hpp"
 #include "experiments/reproduce/reproduce.hpp"
 #include "experiments/reproduce/studies.hpp"
 

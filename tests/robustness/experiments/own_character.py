@@ -1,5 +1,5 @@
-"""Rigs from outside, tried as users do. The warnings that a trial alone can give are provoked here, and the others in the
-unit tests of the scene, the rig and the model. The artist's surface is a control for every kind of motion."""
+"""Rigs from outside, tried as users do. The warnings that a trial alone can give are provoked here, and the others in
+the unit tests of the scene, the rig and the model. The artist's surface is a control for every kind of motion."""
 import html
 import json
 import os
