@@ -54,14 +54,4 @@ const analysis::Claim& claim_named(const std::string& id)
     return *found;
 }
 
-std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured,
-                                            const std::string& reason)
-{
-    std::vector<ReadingValues::LeftOut> left_out;
-    for (const std::string& quantity : claim_named(claim).own.quantities)
-        if (std::find(measured.begin(), measured.end(), quantity) == measured.end())
-            left_out.push_back({claim, quantity, reason});
-    return left_out;
-}
-
 }  // namespace experiments

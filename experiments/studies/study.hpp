@@ -150,22 +150,6 @@ nlohmann::json cases_document(const std::string& study);
 StudyPlan plan_of_cases(const std::string& study, bool full,
                         const std::function<void(const StudyCase& study_case, StudyPlan& plan)>& add);
 
-// What a study measures of a case in which the scene has further overrides: another reading of the paper (the study
-// `ambiguity`).
-struct ReadingValues {
-    std::vector<analysis::Measurement> values;
-    bool broke_down = false;  // some positions are not finite
-    // The quantities of claims that cannot be measured in this way, each with the reason.
-    struct LeftOut {
-        std::string claim, quantity, reason;
-    };
-    std::vector<LeftOut> left_out = {};
-};
-
-// The quantities that the claim is judged by and that are not among those measured.
-std::vector<ReadingValues::LeftOut> all_but(const std::string& claim, const std::vector<std::string>& measured,
-                                            const std::string& reason);
-
 // The extent in which `pbskin reproduce` and `pbskin reproduce --full`, both without names, run a study.
 struct Sets {
     Extent quick = Extent::quick, full = Extent::full;
@@ -187,8 +171,8 @@ struct Study {
     // The plan with deformers of the user's own from the [[external]] tables of a file. Null: the study has a fixed
     // list of deformers.
     StudyPlan (*plan_with)(bool full, const std::string& external_file) = nullptr;
-    // The values of the study's claims for a case of `ambiguity`, by each of the readings. Null: it has none.
-    std::vector<ReadingValues> (*read)(const StudyCase& study_case, const std::vector<Overrides>& readings) = nullptr;
+    // Adds the runs of one case, as `plan` does for each of its own: the study `ambiguity` has cases of other studies.
+    void (*add)(const StudyCase& study_case, StudyPlan& plan) = nullptr;
     // The values that follow from other measured values of a run: exponents, ranks, shares. A run records them, and
     // verdicts take what is concluded anew from the measured values on record. Null: every value is measured.
     std::vector<analysis::Measurement> (*conclusions)(const std::vector<analysis::Measurement>& measured) = nullptr;

@@ -1,5 +1,4 @@
-"""How much each other reading of the paper changes the values of claims, by body, which verdicts flip, and the volume
-of each scene."""
+"""How much each other reading of the paper changes the values of claims, by body, and which verdicts flip."""
 import math
 
 import pages
@@ -22,8 +21,6 @@ def cell(rows):
     """The value of a body, a reading and a claim: the one whose verdict flips, or else the one that changes most."""
     if not rows:
         return ""
-    if any(row["verdict_flips"] == "not_touched" for row in rows):
-        return "."
     chosen = max(rows, key=lambda row: (row["verdict_flips"] == "yes", size_of_change(row)))
     value = "x" + format(float(chosen["b_over_a"]), ".3g") if chosen["b_over_a"] else (
         "0>" + format(float(chosen["b"]), ".2g") if chosen["a"] and chosen["b"] else "-")
@@ -47,8 +44,6 @@ def of_claim(claim, rows):
     flipping = named("yes", lambda row: f"{row['body']}, {row['reading_b']}")
     values, flips = (sum(row["verdict_flips"] in of for row in rows) for of in (("yes", "no"), ("yes",)))
     text = f"- {claim}: {flips} of {values} values flip" + (" by " + "; ".join(flipping) if flipping else "")
-    if untouched := named("not_touched", lambda row: row["reason"]):
-        text += "\n  - not touched where " + "; ".join(untouched)
     for reason in named("no_value", lambda row: row["reason"]):
         quantities = dict.fromkeys(row["quantity"] for row in rows
                                    if (row["verdict_flips"], row["reason"]) == ("no_value", reason))
@@ -56,34 +51,14 @@ def of_claim(claim, rows):
     return text + "\n"
 
 
-def of_volume(rows):
-    """One line per reading and scene."""
-    values = {}
-    for row in rows:
-        values.setdefault((row["scene"], row["place"], row["reading_b"]), {})[row["quantity"]] = row
-
-    def change(name, scale=1.0):
-        return lambda of: f"{scale * float(of[1][name]['a']):.2f} -> {scale * float(of[1][name]['b']):.2f}"
-
-    return pages.table(values.items(), {
-        "scene": lambda of: of[0][0], "place": lambda of: places.get(of[0][1], of[0][1]), "B": lambda of: of[0][2],
-        "signed A -> B [%]": change("mean_volume_change_pct"),
-        "absolute A -> B [%]": change("mean_volume_abs_change_pct"),
-        "within 0.5 % A -> B": change("share_of_frames_within_printed"),
-        "distance of B from A [mm]": lambda of: f"{1e3 * float(of[1]['distance_of_b_from_a_rms_m']['b']):.3f}",
-        "jiggle A -> B [mm]": change("distance_of_zone_by_jiggle_rms_m", 1e3)})
-
-
 def page(folder):
     rows = pages.of_runs(folder, "ambiguity.csv", {"body", "place", "reading_b", "claim", "quantity", "a", "b",
                                                    "change", "b_over_a", "verdict_flips", "reason"})
     claims = sorted({row["claim"] for row in rows})
     text = ("# How other readings of the paper change the values of claims\n\nA cell is B over A of the value whose "
-            "verdict flips, or else of the one that changes most. `!`: its verdict flips; `.`: the reading cannot "
-            "touch the claim; `-`: no value.\n")
+            "verdict flips, or else of the one that changes most. `!`: its verdict flips; `-`: no value; empty: not "
+            "measured, since the claim's study does not depend on it.\n")
     for body in dict.fromkeys(row["body"] for row in rows):
         text += f"\n## {body}\n\n" + of_body([row for row in rows if row["body"] == body], claims)
-    text += "\n## Verdicts that flip\n\n" + "".join(of_claim(claim, [row for row in rows if row["claim"] == claim])
-                                                    for claim in claims)
-    return text + "\n## Volume\n\n" + of_volume(pages.of_runs(folder, "figures.csv",
-                                                              {"scene", "place", "reading_b", "quantity", "a", "b"}))
+    return text + "\n## Verdicts that flip\n\n" + "".join(
+        of_claim(claim, [row for row in rows if row["claim"] == claim]) for claim in claims)

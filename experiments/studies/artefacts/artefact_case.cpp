@@ -91,7 +91,7 @@ public:
 
     void look_at(const ArtefactBody& body, const DeformerSpec& spec, bool with_intersections)
     {
-        const Shapes shapes = body.posed.shapes(spec, poses_of(spec));
+        const Shapes shapes = shapes_of(body, spec);
         for (std::size_t pose = 0; pose < shapes.size(); ++pose) {
             if (!shapes[pose].finished) {
                 records_.breakdown +=
@@ -108,6 +108,20 @@ public:
     ArtefactRecords records() && { return std::move(records_); }
 
 private:
+    Shapes shapes_of(const ArtefactBody& body, const DeformerSpec& spec) const
+    {
+        if (!of_.through_sweep || spec.kind != "pbs") return body.posed.shapes(spec, poses_of(spec));
+        const pbs::Character& character = body.posed.character();
+        const pbs::Motion sweep = make_motion(of_.scene.motion, character.skeleton, of_.scene.file);
+        const std::vector<pbs::Positions> of_frames = shapes_in_motion(character, sweep, spec);
+        Shapes shapes;
+        for (const ArtefactPose& pose : of_.poses) {
+            const pbs::Positions& positions = of_frames.at(static_cast<std::size_t>(pose.frame));
+            shapes.push_back({.positions = positions, .finished = positions.allFinite()});
+        }
+        return shapes;
+    }
+
     std::optional<std::size_t> poses_of(const DeformerSpec& spec) const
     {
         if (element_order_of(spec) < 2) return {};
@@ -275,10 +289,11 @@ bool is_turned(const ArtefactPose& pose, const ArtefactBody& body, std::size_t j
 ArtefactRecords find_artefacts(const ArtefactCase& artefact_case, const ArtefactBody& body)
 {
     Search search(artefact_case);
-    const std::vector<DeformerSpec> orders = other_orders(spec_of(artefact_case.scene, "pbs"));
+    std::vector<DeformerSpec> orders;
+    if (!artefact_case.through_sweep) orders = other_orders(spec_of(artefact_case.scene, "pbs"));
     const auto look_at = [&](const ArtefactBody& mesh, bool is_own) {
         for (const DeformerSpec& spec : artefact_case.scene.deformers)
-            if (is_own || is_on_other_meshes(spec)) search.look_at(mesh, spec, is_own);
+            if (is_own || is_on_other_meshes(spec)) search.look_at(mesh, spec, is_own && !artefact_case.through_sweep);
         for (const DeformerSpec& spec : orders) search.look_at(mesh, spec, false);
     };
     look_at(body, true);

@@ -121,6 +121,9 @@ struct ArtefactCase {
     Claim claim = Claim::bulge;  // for which the sections are measured
     std::vector<int> vertices;   // wanted sizes of the other meshes
     int second_order_poses = 0;  // the first poses, in which quadratic elements are solved too, if the scene has them
+    // The sections of the scene's deformers alone, and of PBS after all frames of the sweep up to the pose, on which a
+    // PBS with a memory depends.
+    bool through_sweep = false;
 };
 
 template <>

@@ -272,7 +272,7 @@ RECORD_SETTINGS_AND(ArtefactCase,
                         .constant("deepest_bend_deg", deepest_bend_deg)
                         .constant("widest_over_rest", widest_over_rest)
                         .derived("joints_by_hand", joints_by_hand_of),
-                    scene, poses, joint, claim, second_order_poses)
+                    scene, poses, joint, claim, second_order_poses, through_sweep)
 
 const analysis::Columns<SectionRow> section_columns =
     MEMBER_COLUMNS(SectionRow, claim, body, pose, joint, reference, outcome, remark);

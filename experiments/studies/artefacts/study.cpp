@@ -26,7 +26,8 @@ std::string look_and_record(const ArtefactCase& artefact_case, const std::string
 {
     const ArtefactBody body(artefact_case);
     const ArtefactRecords records = find_artefacts(artefact_case, body);
-    WeightsComparison weights = compare_weights(artefact_case);
+    const WeightsComparison weights =
+        artefact_case.through_sweep ? WeightsComparison{} : compare_weights(artefact_case);
     std::vector<analysis::Measurement> measurements = section_values(artefact_case, body, records.samples);
     measurements.insert(measurements.end(), weights.measurements.begin(), weights.measurements.end());
     const auto path = [&](const char* name) { return analysis::path_in(folder, name); };
@@ -63,6 +64,7 @@ ArtefactCase case_of(const StudyCase& study_case, CaseBodies& bodies, const std:
     made.joint = study_case.value<std::string>("joint", "");
     made.vertices = study_case.value<std::vector<int>>("vertices", {});
     made.second_order_poses = study_case.value("second_order_poses", 0);
+    made.through_sweep = study_case.value("through_sweep", false);
     const double finer = study_case.value("finer", 0.0);  // a further mesh, by its size over that of the body's own
     const auto character = [&]() -> const pbs::Character& { return bodies.body(study_case.scene()); };
     if (finer > 0.0)
@@ -103,51 +105,26 @@ ArtefactCase case_of(const StudyCase& study_case, CaseBodies& bodies, const std:
     return made;
 }
 
-// C04 or C05 of readings: sections in the poses of a sweep all steps of which are taken, and one reference.
-std::vector<ReadingValues> read_sections(const StudyCase& study_case, const std::vector<Overrides>& readings)
+void add_runs(const StudyCase& study_case, CaseBodies& bodies, StudyPlan& plan)
+{
+    if (!study_case.has("movements"))
+        plan.runs.push_back(work_run(study_case.name, case_of(study_case, bodies), study_case.cost_s, look_and_record));
+    for (const auto& movement : study_case.value<std::vector<std::string>>("movements", {}))
+        plan.runs.push_back(work_run(study_case.name + "_" + movement, case_of(study_case, bodies, movement),
+                                     study_case.cost_s, look_and_record));
+}
+
+void add_case(const StudyCase& study_case, StudyPlan& plan)
 {
     CaseBodies bodies;
-    const ArtefactCase base = case_of(study_case, bodies);
-    const ArtefactBody body(base);
-    const pbs::Character& character = body.posed.character();
-    const pbs::Motion motion = make_motion(base.scene.motion, character.skeleton, base.scene.file);
-    const auto add = [&](std::vector<ArtefactSample>& samples, const char* group, std::size_t pose,
-                         const pbs::Positions& shape) {
-        const int element_order = group == std::string("reference") ? 1 : 0;
-        for (std::size_t joint = 0; joint < body.joints.size(); ++joint)
-            samples.push_back({group, pose, joint,
-                               extremes_of(body.sections[joint].measure(shape, body.posed.pose(pose))), element_order});
-    };
-    std::vector<ArtefactSample> reference;
-    const Shapes flesh = body.posed.shapes(spec_of(base.scene, base.scene.reference));
-    for (std::size_t pose = 0; pose < flesh.size(); ++pose)
-        if (flesh[pose].finished) add(reference, "reference", pose, flesh[pose].positions);
-    std::vector<ReadingValues> values_of_readings;
-    for (const Overrides& reading : readings) {
-        const Scene scene = study_case.scene(reading);
-        const std::vector<pbs::Positions> shapes =
-            shapes_in_motion(reweighted(character, scene), motion, spec_of(scene, "pbs"));
-        std::vector<ArtefactSample> samples = reference;
-        for (std::size_t pose = 0; pose < base.poses.size(); ++pose)
-            if (const pbs::Positions& shape = shapes.at(static_cast<std::size_t>(base.poses[pose].frame));
-                shape.allFinite())
-                add(samples, "pbs", pose, shape);
-        const bool finite = std::ranges::all_of(shapes, [](const pbs::Positions& shape) { return shape.allFinite(); });
-        values_of_readings.push_back({section_values(base, body, samples), !finite});
-    }
-    return values_of_readings;
+    add_runs(study_case, bodies, plan);
 }
 
 StudyPlan plan(bool full)
 {
     CaseBodies bodies;
     return plan_of_cases("artefacts", full, [&bodies](const StudyCase& study_case, StudyPlan& plan) {
-        if (!study_case.has("movements"))
-            plan.runs.push_back(
-                work_run(study_case.name, case_of(study_case, bodies), study_case.cost_s, look_and_record));
-        for (const auto& movement : study_case.value<std::vector<std::string>>("movements", {}))
-            plan.runs.push_back(work_run(study_case.name + "_" + movement, case_of(study_case, bodies, movement),
-                                         study_case.cost_s, look_and_record));
+        add_runs(study_case, bodies, plan);
     });
 }
 
@@ -155,7 +132,7 @@ StudyPlan plan(bool full)
 
 Study artefacts_study()
 {
-    return {"artefacts", plan, quick_and_full, nullptr, false, nullptr, read_sections};
+    return {"artefacts", plan, quick_and_full, nullptr, false, nullptr, add_case};
 }
 
 }  // namespace experiments

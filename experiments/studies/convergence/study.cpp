@@ -247,56 +247,36 @@ ProjectionSetting setting_of(const std::string& text)
     return {option_of<pbs::Order>(text.substr(0, blank)), option_of<pbs::Precision>(text.substr(blank + 1))};
 }
 
-StudyPlan plan(bool full)
+void add_case(const StudyCase& study_case, StudyPlan& plan)
 {
-    return plan_of_cases("convergence", full, [](const StudyCase& in_file, StudyPlan& plan) {
-        ConvergenceCase convergence_case{.scene = in_file.scene()};
-        if (in_file.value("through_movements", false)) {
-            const auto movements = movements_of(pbs::make_character(convergence_case.scene.character).skeleton);
-            convergence_case.scene =
-                in_file.scene({fmt::format("motion.movements=['{}']", fmt::join(movements, "','"))});
-            convergence_case.frames = ends_of(movements, convergence_case.scene.motion.frames);
-        } else {
-            const auto motion = in_file.value<std::string>("motion");
-            for (const nlohmann::json& frame : in_file.value<nlohmann::json>("frames"))
-                convergence_case.frames.push_back(frame_of(motion, frame));
-        }
-        convergence_case.k_stretch = in_file.value<std::vector<double>>("k_stretch");
-        for (const auto& setting : in_file.value<std::vector<std::string>>("settings"))
-            convergence_case.settings.push_back(setting_of(setting));
-        convergence_case.other_vertices = in_file.value<std::vector<int>>("other_vertices", {});
-        convergence_case.every_setting_to = in_file.value("every_setting_to", 0);
-        convergence_case.ladder = in_file.value("ladder", false);
-        convergence_case.exponents = convergence_case.ladder && in_file.value("exponents", true);
-        convergence_case.from_lbs_alone = in_file.value("from_lbs_alone", false);
-        convergence_case.reference = reference_flesh(convergence_case.scene);
-        convergence_case.reference_to = in_file.value("reference_to", convergence_case.reference_to);
-        plan.runs.push_back(work_run(in_file.name, convergence_case, in_file.cost_s, measure_and_record));
-    });
+    ConvergenceCase convergence_case{.scene = study_case.scene()};
+    if (study_case.value("through_movements", false)) {
+        const auto movements = movements_of(pbs::make_character(convergence_case.scene.character).skeleton);
+        convergence_case.scene =
+            study_case.scene({fmt::format("motion.movements=['{}']", fmt::join(movements, "','"))});
+        convergence_case.frames = ends_of(movements, convergence_case.scene.motion.frames);
+    } else {
+        const auto motion = study_case.value<std::string>("motion");
+        for (const nlohmann::json& frame : study_case.value<nlohmann::json>("frames"))
+            convergence_case.frames.push_back(frame_of(motion, frame));
+    }
+    const auto& options = options_of<pbs::PbsOptions>(spec_of(convergence_case.scene, "pbs"));
+    convergence_case.k_stretch = study_case.value("k_stretch", std::vector<double>{options.k_stretch});
+    for (const auto& setting : study_case.value<std::vector<std::string>>("settings"))
+        convergence_case.settings.push_back(setting_of(setting));
+    convergence_case.other_vertices = study_case.value<std::vector<int>>("other_vertices", {});
+    convergence_case.every_setting_to = study_case.value("every_setting_to", 0);
+    convergence_case.ladder = study_case.value("ladder", false);
+    convergence_case.exponents = convergence_case.ladder && study_case.value("exponents", true);
+    convergence_case.from_lbs_alone = study_case.value("from_lbs_alone", false);
+    convergence_case.reference = reference_flesh(convergence_case.scene);
+    convergence_case.reference_to = study_case.value("reference_to", convergence_case.reference_to);
+    plan.runs.push_back(work_run(study_case.name, convergence_case, study_case.cost_s, measure_and_record));
 }
 
-// C03, C12: the paths in one pose, on the scene's mesh and in its order. C12 is judged on characters alone. The first
-// reading's k_stretch names the case of all of them.
-std::vector<ReadingValues> read_paths(const StudyCase& study_case, const std::vector<Overrides>& readings)
+StudyPlan plan(bool full)
 {
-    std::vector<ReadingValues> values_of_readings;
-    std::optional<double> k_stretch;
-    for (const Overrides& reading : readings) {
-        ConvergenceCase read;
-        read.scene = study_case.scene(reading);
-        read.frames = {{study_case.value<int>("frame"), study_case.name, study_case.key()}};
-        read.most_iterations = study_case.value<int>("iterations");
-        const auto& options = options_of<pbs::PbsOptions>(spec_of(read.scene, "pbs"));
-        read.k_stretch = {options.k_stretch};
-        read.settings = {{options.order, options.precision}};
-        ConvergenceResult result = measure_convergence(read);
-        if (!k_stretch) k_stretch = options.k_stretch;
-        result.all.front().of.k_stretch = *k_stretch;
-        values_of_readings.push_back({convergence_values(rate_rows(result)), !result.breakdown.empty()});
-        if (!result.all.front().character)
-            values_of_readings.back().left_out = all_but("C12a", {}, "judged on characters alone");
-    }
-    return values_of_readings;
+    return plan_of_cases("convergence", full, add_case);
 }
 
 }  // namespace
@@ -368,7 +348,7 @@ ConvergenceResult measure_convergence(const ConvergenceCase& convergence_case, c
 
 Study convergence_study()
 {
-    return {"convergence", plan, quick_and_full, nullptr, false, nullptr, read_paths, convergence_conclusions};
+    return {"convergence", plan, quick_and_full, nullptr, false, nullptr, add_case, convergence_conclusions};
 }
 
 }  // namespace experiments

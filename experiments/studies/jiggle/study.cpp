@@ -9,7 +9,6 @@
 #include "experiments/deformers/deformer_options.hpp"
 #include "experiments/deformers/fem/fem_options.hpp"
 #include "experiments/studies/jiggle/jiggle_records.hpp"
-#include "experiments/studies/shared/posed_character.hpp"
 #include "experiments/studies/study.hpp"
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
@@ -93,79 +92,19 @@ JoltCase jolt_case(const StudyCase& study_case)
     return jolt;
 }
 
+void add_case(const StudyCase& study_case, StudyPlan& plan)
+{
+    if (study_case.has("stops"))
+        plan.runs.push_back(work_run<StopCase>(study_case.name,
+                                               {study_case.scene(), study_case.value<std::string>("stops")},
+                                               study_case.cost_s, record_stop));
+    else
+        plan.runs.push_back(work_run(study_case.name, jolt_case(study_case), study_case.cost_s, record_jolts));
+}
+
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("jiggle", full, [](const StudyCase& study_case, StudyPlan& plan) {
-        if (study_case.has("stops"))
-            plan.runs.push_back(work_run<StopCase>(study_case.name,
-                                                   {study_case.scene(), study_case.value<std::string>("stops")},
-                                                   study_case.cost_s, record_stop));
-        else
-            plan.runs.push_back(work_run(study_case.name, jolt_case(study_case), study_case.cost_s, record_jolts));
-    });
-}
-
-// C09a of readings: a jolt without gravity at the reading's own stiffness in the zone, at 0.1 there, at half the time
-// step and at twice the iterations. A reading whose flesh does not jiggle takes Table 1's 0.9 in the zone. All count as
-// the paper's own setting.
-constexpr double table_1_k_stretch = 0.9, soft_k_stretch = 0.1;
-constexpr double least_answer =
-    1e-3;  // of the jolt; flesh that LBS carries along moves by rounding, some 1e-5, which is no swing
-
-// named: the setting under which the values are recorded, which is the paper's, whatever the reading makes of it.
-ResponseRow jolted(const pbs::Character& character, const std::vector<int>& probe, const Jolt& jolt,
-                   const DeformerSpec& read, ResponseRow named, double k_stretch)
-{
-    DeformerSpec spec = read;
-    auto& options = options_of<pbs::PbsOptions>(spec);
-    const bool everywhere = options.jiggle && options.k_stretch == options.jiggle->k_stretch;
-    if (!options.jiggle) options.jiggle = pbs::Jiggle{};
-    options.jiggle->k_stretch = k_stretch;
-    if (everywhere) options.k_stretch = k_stretch;
-    options.iterations = named.iterations;
-    options.order = pbs::Order::plain;
-    options.precision = pbs::Precision::f64;
-    options.gravity_m_s2.setZero();
-    named.response = jolt_response(character, spec, probe, jolt);
-    if (named.response.peak_over_jolt < least_answer) named.response.swing = {};
-    return named;
-}
-
-std::vector<ResponseRow> jolts_of(const StudyCase& study_case, const pbs::Character& character,
-                                  const std::vector<int>& probe, const Overrides& reading)
-{
-    const Scene scene = study_case.scene(reading);
-    const DeformerSpec spec = spec_of(scene, "pbs");
-    const auto& options = options_of<pbs::PbsOptions>(spec);
-    const double dt_s = study_case.scene().motion.time_step_s,
-                 k = options.jiggle ? options.jiggle->k_stretch : table_1_k_stretch;
-    const int substeps = static_cast<int>(std::lround(dt_s / scene.motion.time_step_s));
-    const auto jolt = [&](const ResponseRow& named, double k_stretch) {
-        Jolt of_setting{.direction = study_case.direction("along"), .time_step_s = named.time_step_ms / 1e3 / substeps};
-        of_setting.still_steps *= substeps;
-        of_setting.steps = substeps * study_case.value<int>("jolt_steps");
-        return jolted(character, probe, of_setting, spec, named, k_stretch);
-    };
-    const ResponseRow named{
-        .k_stretch = table_1_k_stretch, .time_step_ms = 1e3 * dt_s, .iterations = options.iterations};
-    ResponseRow soft = named, half = named, twice = named;
-    soft.k_stretch = soft_k_stretch;
-    half.time_step_ms *= 0.5;
-    twice.iterations *= 2;
-    return {jolt(named, k), jolt(soft, soft_k_stretch), jolt(half, k), jolt(twice, k)};
-}
-
-std::vector<ReadingValues> read_jolts(const StudyCase& study_case, const std::vector<Overrides>& readings)
-{
-    const pbs::Character character = pbs::make_character(study_case.scene().character);
-    const std::vector<int> probe = zone_contents(character).pieces.at(0);
-    std::vector<ReadingValues> values_of_readings;
-    for (const Overrides& reading : readings) {
-        const std::vector<ResponseRow> rows = jolts_of(study_case, character, probe, reading);
-        ReadingValues& read = values_of_readings.emplace_back(ReadingValues{jiggle_values(character.name, rows)});
-        read.broke_down = !std::ranges::all_of(rows, [](const ResponseRow& row) { return row.response.finished; });
-    }
-    return values_of_readings;
+    return plan_of_cases("jiggle", full, add_case);
 }
 
 }  // namespace
@@ -224,7 +163,7 @@ JoltResponse stop_response(const pbs::Character& character, const DeformerSpec& 
 
 Study jiggle_study()
 {
-    return {"jiggle", plan, quick_and_full, nullptr, false, nullptr, read_jolts, jiggle_conclusions};
+    return {"jiggle", plan, quick_and_full, nullptr, false, nullptr, add_case, jiggle_conclusions};
 }
 
 }  // namespace experiments

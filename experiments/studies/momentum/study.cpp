@@ -190,37 +190,17 @@ std::string measure_drift(const MomentumCase& momentum_case, const std::string& 
     return {};
 }
 
-StudyPlan plan(bool full)
+void add_case(const StudyCase& study_case, StudyPlan& plan)
 {
-    return plan_of_cases("momentum", full, [](const StudyCase& study_case, StudyPlan& plan) {
-        plan.runs.push_back(work_run<MomentumCase>(
-            study_case.name, {study_case.name, study_case.scene(), study_case.value<int>("frame")}, study_case.cost_s,
-            measure_drift));
-    });
+    plan.runs.push_back(work_run<MomentumCase>(
+        study_case.name,
+        {study_case.value("body", study_case.name), study_case.scene(), study_case.value<int>("frame")},
+        study_case.cost_s, measure_drift));
 }
 
-// Single projections and a pass of each class that is judged, from the reading's LBS shape. Momentum is that of the
-// reading's masses.
-std::vector<ReadingValues> read_drifts(const StudyCase& study_case, const std::vector<Overrides>& readings)
+StudyPlan plan(bool full)
 {
-    std::vector<ReadingValues> values_of_readings;
-    for (const Overrides& reading : readings) {
-        const Scene scene = study_case.scene(reading);
-        const PosedCharacter posed(scene, {study_case.value<int>("frame")});
-        const auto& options = options_of<pbs::PbsOptions>(spec_of(scene, "pbs"));
-        analysis::CaseKey key = study_case.key();
-        key.precision = name_of(options.precision);
-        values_of_readings.emplace_back();
-        for (const auto& [projected, class_name] : classes) {
-            if (projected == ProjectedClass::bind) continue;
-            key.constraint = class_name;
-            add(values_of_readings.back().values, projected, "", key,
-                drift_of_projections(posed.character(), posed.pose(0), options, projected, options.masses));
-            add(values_of_readings.back().values, projected, "_of_a_pass", key,
-                drift_of_a_pass(posed.character(), posed.pose(0), options, projected, options.masses));
-        }
-    }
-    return values_of_readings;
+    return plan_of_cases("momentum", full, add_case);
 }
 
 }  // namespace
@@ -244,7 +224,7 @@ MomentumDrift drift_of_a_pass(const pbs::Character& character, const pbs::Pose& 
 
 Study momentum_study()
 {
-    return {"momentum", plan, quick_and_full, nullptr, false, nullptr, read_drifts};
+    return {"momentum", plan, quick_and_full, nullptr, false, nullptr, add_case};
 }
 
 }  // namespace experiments

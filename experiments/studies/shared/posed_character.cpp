@@ -1,6 +1,5 @@
 #include "experiments/studies/shared/posed_character.hpp"
 
-#include "experiments/characters/skinning_weights.hpp"
 #include "experiments/run/broken_frames.hpp"
 #include "experiments/run/frame_measurement.hpp"
 #include "pbs/geometry/input_error.hpp"
@@ -44,11 +43,6 @@ std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, co
         if (is_frame) shapes.push_back(deformer->positions());
     }
     return shapes;
-}
-
-pbs::Character reweighted(const pbs::Character& character, const Scene& scene)
-{
-    return scene.character.weights ? pbs::with_weights(*scene.character.weights, character) : character;
 }
 
 PosedCharacter::PosedCharacter(const Scene& scene, const std::vector<int>& frames)

@@ -36,9 +36,6 @@ std::vector<pbs::Positions> shapes_in_motion(const pbs::Character& character, co
 pbs::Positions carried_by_lbs(const pbs::Positions& shape, const pbs::Character& character, const pbs::Pose& from,
                               const pbs::Pose& to);
 
-// The character with the weights that the scene states, if it states any.
-pbs::Character reweighted(const pbs::Character& character, const Scene& scene);
-
 struct Shape {
     pbs::Positions positions;  // vertices [m], #V x 3
     bool finished = false;     // false: not finite or not converged; nothing is measured against it

@@ -38,20 +38,23 @@ std::vector<DeformerSpec> added_to(const StudyCase& study_case)
     return added;
 }
 
+void add_case(const StudyCase& study_case, StudyPlan& plan)
+{
+    const std::vector<DeformerSpec> added = added_to(study_case);
+    const auto add_run = [&](const std::string& name, const Overrides& overrides) {
+        StudyRun& run = plan.runs.emplace_back(study_case.scene_run(name, overrides));
+        run.beside = study_case.value("beside", false);
+        run.bad_frames_are_results = study_case.value("goes_on", false);
+        run.scene.deformers.insert(run.scene.deformers.end(), added.begin(), added.end());
+    };
+    if (!study_case.value("through_movements", false)) return add_run(study_case.name, {});
+    for (const std::string& movement : movements_of(pbs::make_character(study_case.scene().character).skeleton))
+        add_run(study_case.name + "_" + movement, {fmt::format("motion.movements=['{}']", movement)});
+}
+
 StudyPlan plan(bool full)
 {
-    return plan_of_cases("volume", full, [](const StudyCase& study_case, StudyPlan& plan) {
-        const std::vector<DeformerSpec> added = added_to(study_case);
-        const auto add_run = [&](const std::string& name, const Overrides& overrides) {
-            StudyRun& run = plan.runs.emplace_back(study_case.scene_run(name, overrides));
-            run.beside = study_case.value("beside", false);
-            run.bad_frames_are_results = study_case.value("goes_on", false);
-            run.scene.deformers.insert(run.scene.deformers.end(), added.begin(), added.end());
-        };
-        if (!study_case.value("through_movements", false)) return add_run(study_case.name, {});
-        for (const std::string& movement : movements_of(pbs::make_character(study_case.scene().character).skeleton))
-            add_run(study_case.name + "_" + movement, {fmt::format("motion.movements=['{}']", movement)});
-    });
+    return plan_of_cases("volume", full, add_case);
 }
 
 bool conclude(const FinishedRuns& finished)
@@ -75,7 +78,7 @@ bool conclude(const FinishedRuns& finished)
 
 Study volume_study()
 {
-    return {"volume", plan, quick_and_full, conclude};
+    return {"volume", plan, quick_and_full, conclude, false, nullptr, add_case};
 }
 
 }  // namespace experiments

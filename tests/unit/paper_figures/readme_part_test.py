@@ -339,20 +339,19 @@ class Pages(ResultsTest):
         for shown, rows in (("x1.5", [row]), ("x1.1!", [row | {"b_over_a": "9"}, flips]),
                             ("x9", [row, row | {"b_over_a": "9"}]),
                             ("0>0.5!", [flips | {"a": "0", "b": "0.5", "b_over_a": ""}]),
-                            (".", [{"verdict_flips": "not_touched", "change": ""}]), ("", []),
+                            ("", []),
                             ("-", [row | {"verdict_flips": "no_value", "a": "", "b": "", "change": "",
-                                          "b_over_a": ""}]), ("-!", [flips | {"b": "", "change": "", "b_over_a": ""}])):
+                                          "b_over_a": ""}]),
+                            ("-!", [flips | {"b": "", "change": "", "b_over_a": ""}])):
             self.assertEqual(ambiguity.cell(rows), shown)
 
     def test_a_claim_states_which_readings_flip_it_and_why_others_have_no_value(self):
         rows = [{"body": "limb", "reading_b": name, "quantity": quantity, "verdict_flips": flips, "reason": reason}
                 for name, quantity, flips, reason in (
                     ("B", "ratio", "yes", ""), ("C", "ratio", "no", ""), ("B", "share", "no_value", "four settings"),
-                    ("B", "range", "no_value", "four settings"),
-                    ("D", "", "not_touched", "another factor is no more work"))]
-        self.assertEqual(ambiguity.of_claim("C09", rows), "- C09: 1 of 2 values flip by limb, B\n  - not touched where "
-                                                          "another factor is no more work\n  - no value: "
-                                                          "four settings: share, range\n")
+                    ("B", "range", "no_value", "four settings"))]
+        self.assertEqual(ambiguity.of_claim("C09", rows), "- C09: 1 of 2 values flip by limb, B\n"
+                         "  - no value: four settings: share, range\n")
 
     def test_sections_are_counted_by_outcome_and_those_left_out_named(self):
         row = {"claim": "C05", "body": "human", "joint": "elbow", "remark": ""}

@@ -209,6 +209,35 @@ TEST(ArtefactPoses, AreReachedFromRestByADeformerWithMemory)
     EXPECT_EQ(shapes({1, 3}).at(1).positions, shapes({3}).at(0).positions);
 }
 
+// Reference: the sections of the shapes that PBS takes step by step. If each of its frames begins with the one before,
+// these are other shapes than those from rest.
+TEST(ArtefactPoses, AreReachedThroughTheSweepWhereTheCaseAsksForIt)
+{
+    ArtefactCase twisted;
+    twisted.scene = read_scene(
+        "limb_twist", {"character.vertices=400", "motion.angle_deg=90", "motion.frames=4",
+                       R"(deformers.use=["lbs","pbs"])", "reference.name=lbs", "pbs.variant.lbs_entry=increment"});
+    twisted.poses = {{.frame = 3, .name = "twist_90_deg"}};
+    twisted.joint = "upper|forearm";
+    twisted.claim = ArtefactCase::Claim::candy_wrapper;
+    twisted.through_sweep = true;
+    const ArtefactBody body(twisted);
+    const auto narrowest = [&] {
+        const ArtefactRecords records = find_artefacts(twisted, body);
+        return std::ranges::find(records.samples, "pbs", &ArtefactSample::group)->extremes.smallest_radius;
+    };
+    const pbs::Character& limb = body.posed.character();
+    const pbs::Motion sweep = make_motion(twisted.scene.motion, limb.skeleton, twisted.scene.file);
+    const pbs::Positions last = shapes_in_motion(limb, sweep, spec_of(twisted.scene, "pbs")).at(3);
+    EXPECT_EQ(narrowest(), extremes_of(body.sections.at(0).measure(last, body.posed.pose(0))).smallest_radius);
+    const ArtefactRecords records = find_artefacts(twisted, body);
+    EXPECT_EQ(records.samples.size(), 2u) << "lbs, and pbs in the order and precision of the scene";
+    EXPECT_TRUE(records.intersections.empty());
+    const double through_sweep = narrowest();
+    twisted.through_sweep = false;
+    EXPECT_NE(narrowest(), through_sweep);
+}
+
 // The weights of Eq. 2 compared with rigid ones on a small limb. Reference: the records whose ratios are the values;
 // with rigid weights one layer of tets takes all of a twist; without a pose there is no roughness.
 
