@@ -80,23 +80,16 @@ pbs::ChildEnd act_as_worker(const PooledWork& work)
     }
 }
 
-double seconds_of(const timeval& time)
-{
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
 // Waits for the end of the worker.
 PooledResult outcome_of(const PooledWork& work, pbs::ChildProcess& process)
 {
-    rusage usage{};
-    const int status = process.wait(&usage), exit = WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal;
+    const int status = process.wait(), exit = WIFEXITED(status) ? WEXITSTATUS(status) : exit_internal;
     const bool finished = exit == exit_finished || exit == exit_breakdown;
     PooledResult result{work.name, finished, exit == exit_breakdown ? process.text() : "",
                         finished ? "" : process.text()};
     result.refused = exit == exit_input;
     if (WIFSIGNALED(status)) result.failure = fmt::format("ended by signal {}", WTERMSIG(status));
     if (exit == exit_interrupted) result.failure = "interrupted";
-    result.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     return result;
 }
 

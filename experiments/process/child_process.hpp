@@ -52,7 +52,6 @@ struct PooledResult {
     std::string breakdown;  // numerical; the run is finished and recorded nevertheless
     std::string failure;    // the worker's message, or the signal that ended it
     bool refused = false;   // the failure is an InputError: bad input, or a file that cannot be written
-    double cpu_s = 0.0;     // processor time that it took
 };
 
 // Runs at most `jobs` at once, the costliest first. The results are in the order of `work`. Logs each end with the time

@@ -179,19 +179,15 @@ void begin(const PlannedStudy& planned)
 StudyOutcome outcome_of(const PlannedStudy& planned, std::span<const PooledResult> results)
 {
     StudyOutcome outcome;
-    StudyCosts costs(planned.folder);
     for (const StudyRun& run : planned.kept)  // a kept breakdown has the same effect as that of a new run
         report_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
-    for (std::size_t i = 0; i < results.size(); ++i) {
-        const PooledResult& result = results[i];
+    for (const PooledResult& result : results) {
         if (!result.finished) spdlog::error("pbskin: {}: {}", result.name, result.failure);
         report_breakdown(result.name, result.breakdown, outcome);
         outcome.failed |= !result.finished;
         outcome.refused |= result.refused;
-        if (result.finished) costs.add(planned.to_do[i].name, planned.to_do[i].cost_s, result.cpu_s);
     }
-    costs.complete(planned.folder, planned.plan);
-    costs.write();
+    write_costs(planned.folder, planned.plan);
     outcome.finished = finished_runs(planned.folder);
     return outcome;
 }

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -37,18 +38,27 @@ std::pair<std::string, nlohmann::json> identity(const StudyRun& run)
     return {"scene", to_json(run.scene)};
 }
 
+// Of this process with all threads, and of the processes that it has waited for [s].
+double cpu_with_children_s()
+{
+    rusage children = {};
+    getrusage(RUSAGE_CHILDREN, &children);
+    const auto seconds = [](const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
+    return process_cpu_s() + seconds(children.ru_utime) + seconds(children.ru_stime);
+}
+
 std::string carry_out_work(const StudyRun& run, const std::string& folder)
 {
     analysis::make_output_folder(folder);
     const fs::path record = fs::path(folder) / "run.json";
     analysis::remove_record(record);
     const pbs::Stopwatch stopwatch;
-    const double cpu_start_s = process_cpu_s();
+    const double cpu_start_s = cpu_with_children_s();
     const std::string breakdown = run.work(folder);
 
     const auto [key, value] = identity(run);
     nlohmann::json outcome = {
-        {"finished", true}, {"breakdown", breakdown}, {"cpu_seconds", process_cpu_s() - cpu_start_s}};
+        {"finished", true}, {"breakdown", breakdown}, {"cpu_seconds", cpu_with_children_s() - cpu_start_s}};
     outcome.update(run_end(stopwatch.seconds()));
     const nlohmann::json json = {
         {"schema", run_schema}, {key, value}, {"provenance", run_provenance(1)}, {"outcome", outcome}};
@@ -56,29 +66,21 @@ std::string carry_out_work(const StudyRun& run, const std::string& folder)
     return breakdown;
 }
 
-struct RecordedCost {
-    std::optional<double> cpu_s;  // of its process with all threads; records of some versions lack it
-    std::optional<double> wall_s;
+struct RunCost {
+    std::string run;
+    double expected_s = 0.0;
+    std::optional<double> cpu_s, wall_s;
 };
-
-std::optional<double> number_at(const nlohmann::json& run, const char* pointer)
-{
-    const nlohmann::json::json_pointer place(pointer);
-    return run.contains(place) && run.at(place).is_number() ? std::optional(run.at(place).get<double>()) : std::nullopt;
-}
 
 const analysis::Columns<RunCost> cost_columns =
     analysis::Columns<RunCost>{
         {"run", &RunCost::run}, {"expected_cpu_s", &RunCost::expected_s}, {"cpu_s", &RunCost::cpu_s}} +
     analysis::Columns<RunCost>{{"wall_s", &RunCost::wall_s}}.in_group("wall");
 
-// Nothing if the run did not finish.
-std::optional<RecordedCost> recorded_cost(const fs::path& folder)
+std::optional<double> number_at(const nlohmann::json& run, const char* pointer)
 {
-    if (!fs::exists(folder / "run.json")) return std::nullopt;
-    const auto run = nlohmann::json::parse(analysis::read_text((folder / "run.json").string()), nullptr, false);
-    const char* cpu_s = run.contains("cost") ? "/cost/cpu_seconds/total" : "/outcome/cpu_seconds";
-    return RecordedCost{number_at(run, cpu_s), number_at(run, "/outcome/wall_s")};
+    const nlohmann::json::json_pointer place(pointer);
+    return run.contains(place) && run.at(place).is_number() ? std::optional(run.at(place).get<double>()) : std::nullopt;
 }
 
 }  // namespace
@@ -120,35 +122,17 @@ std::string breakdown_on_record(const StudyRun& run, const std::string& folder)
     });
 }
 
-StudyCosts::StudyCosts(const std::string& folder) : file_((fs::path(folder) / "costs.csv").string())
+void write_costs(const std::string& folder, const StudyPlan& plan)
 {
-    if (!fs::exists(file_)) return;
-    runs_ = rows_of(cost_columns, analysis::read_csv(file_));
-}
-
-void StudyCosts::add(const std::string& run, double expected_s, double cpu_s)
-{
-    std::erase_if(runs_, [&](const RunCost& cost) { return cost.run == run; });
-    runs_.push_back({run, expected_s, cpu_s});
-}
-
-void StudyCosts::complete(const std::string& folder, const StudyPlan& plan)
-{
-    std::vector<RunCost> ordered;
+    std::vector<RunCost> costs;
     for (const StudyRun& run : plan.runs) {
-        const auto recorded = recorded_cost(fs::path(folder) / run.name);
-        if (!recorded) continue;
-        const auto row = std::ranges::find(runs_, run.name, &RunCost::run);
-        if (row == runs_.end() && !recorded->cpu_s) continue;
-        ordered.push_back(row != runs_.end() ? *row : RunCost{run.name, run.cost_s, *recorded->cpu_s});
-        ordered.back().wall_s = recorded->wall_s;
+        const fs::path record = fs::path(folder) / run.name / "run.json";
+        if (!fs::exists(record)) continue;
+        const auto json = nlohmann::json::parse(analysis::read_text(record.string()), nullptr, false);
+        const char* cpu_s = json.contains("cost") ? "/cost/cpu_seconds/total" : "/outcome/cpu_seconds";
+        costs.push_back({run.name, run.cost_s, number_at(json, cpu_s), number_at(json, "/outcome/wall_s")});
     }
-    runs_ = ordered;
-}
-
-void StudyCosts::write() const
-{
-    table_of(cost_columns, runs_).write(file_);
+    table_of(cost_columns, costs).write((fs::path(folder) / "costs.csv").string());
 }
 
 ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs, int jobs)

@@ -4,7 +4,6 @@
 
 #include "experiments/studies/study.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,31 +25,9 @@ std::string carry_out(const StudyRun& run, const std::string& folder);
 // The text that carry_out returned for the finished run in `folder`.
 std::string breakdown_on_record(const StudyRun& run, const std::string& folder);
 
-// The expected and the actual cost of the runs of a study, in DIR/STUDY/costs.csv. The file is kept when a study is
-// resumed.
-//   StudyCosts costs(folder);
-//   costs.add("limb_twist", 80.0, 71.4);
-//   costs.write();
-struct RunCost {
-    std::string run;
-    double expected_s = 0.0, cpu_s = 0.0;  // processor time
-    std::optional<double> wall_s = {};     // wall time; older records have none
-};
-
-class StudyCosts {
-public:
-    explicit StudyCosts(const std::string& folder);  // with the rows of an earlier file, if there is one
-
-    void add(const std::string& run, double expected_s, double cpu_s);
-    // Keeps the rows of the finished runs, in the order of the plan. A finished run without a row, because its
-    // `reproduce` was killed, gets the cost that its run.json has.
-    void complete(const std::string& folder, const StudyPlan& plan);
-    void write() const;
-
-private:
-    std::string file_;
-    std::vector<RunCost> runs_;
-};
+// Writes the expected and the actual cost of the finished runs of a study, which their run.json states, to
+// DIR/STUDY/costs.csv.
+void write_costs(const std::string& folder, const StudyPlan& plan);
 
 // The expected cost of a study, and the wall time with this number of runs in parallel.
 struct ExpectedCost {
