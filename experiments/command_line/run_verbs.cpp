@@ -136,13 +136,13 @@ void add_reproduce_verb(CommandLine& line)
     auto* full =
         verb->add_flag("--full", arguments->full,
                        fmt::format("the whole studies; without names, only a part of {}", fmt::join(in_part, ", ")));
-    verb->add_flag("--quick", *quick, "a part of most studies, in minutes (default); --cost prints the time")
-        ->excludes(full);
+    verb->add_flag("--quick", *quick, "a part of most studies, in minutes (default)")->excludes(full);
     verb->add_option("-j,--jobs", arguments->jobs, "number of runs in parallel")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
     auto* resume = verb->add_flag("--resume", arguments->resume, "keep the runs that are finished already");
-    verb->add_flag("--cost", arguments->cost_only, "run nothing and print the expected time");
+    verb->add_flag("--plan", arguments->plan_only,
+                   "run nothing and print the runs to do as JSON, with their expected processor time");
     auto* external =
         verb->add_option("--external", arguments->external,
                          "a TOML file with [[external]] tables: deformers of your own for the study work_precision")
@@ -155,6 +155,11 @@ void add_reproduce_verb(CommandLine& line)
             ->type_name("RUN")
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb->add_flag(
+            "--records-only", arguments->records_only,
+            "with --only: write only the records of the runs, so that several processes may work in the folder at "
+            "once; the tables and verdicts follow with --resume")
+        ->needs(only);
     verb->add_flag("--judge", *judge, "run nothing and compute the verdicts from the records in the folder")
         ->excludes(full)
         ->excludes(resume)

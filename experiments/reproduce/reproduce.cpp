@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <set>
 #include <span>
 #include <sstream>
@@ -140,16 +139,46 @@ std::vector<PlannedStudy> plan_studies(const ReproduceArguments& arguments)
     };
     if (!arguments.only.empty()) std::erase_if(planned, has_none);
     if (arguments.external) refuse_unused(*arguments.external, planned);
-    for (PlannedStudy& planned_study : planned) choose_runs(planned_study, arguments.only, arguments.resume);
+    for (PlannedStudy& planned_study : planned) {
+        if (arguments.records_only)
+            std::erase_if(planned_study.plan.runs,
+                          [&](const StudyRun& run) { return !is_among(run.name, arguments.only); });
+        choose_runs(planned_study, arguments.only, arguments.resume);
+    }
     return planned;
 }
 
-struct StudyOutcome {
-    FinishedRuns finished = {};  // without failed runs, which are reported and whose verdicts cannot be computed
+// The runs to do, one per line, for a workflow that starts a process for each. `alone`: it measures time, and nothing
+// else may run on its machine. arguments: of `pbskin reproduce`, without the folder.
+std::string plan_text(const std::vector<PlannedStudy>& planned, const std::optional<std::string>& external)
+{
+    std::vector<std::string> lines;
+    for (const PlannedStudy& planned_study : planned) {
+        const Study& study = *planned_study.study;
+        std::vector<std::string> words = {study.name, "--records-only"};
+        if (planned_study.plan.extent == Extent::full) words.emplace_back("--full");
+        if (external && study.plan_with) words.insert(words.end(), {"--external", fs::absolute(*external).string()});
+        for (const StudyRun& run : planned_study.to_do) {
+            nlohmann::json line = {
+                {"run", study.name + "/" + run.name}, {"cost_s", run.cost_s}, {"alone", study.alone}};
+            line["arguments"] = words;
+            line["arguments"].insert(line["arguments"].end(), {"--only", run.name});
+            lines.push_back(line.dump());
+        }
+    }
+    return fmt::format("[{}]\n", fmt::join(lines, ",\n "));
+}
+
+struct Outcome {
     bool broke_down = false, failed = false, refused = false;
+
+    int status() const
+    {
+        return refused ? exit_input : broke_down ? exit_breakdown : failed ? exit_bound : exit_finished;
+    }
 };
 
-void report_breakdown(const std::string& name, const std::string& breakdown, StudyOutcome& outcome)
+void report_breakdown(const std::string& name, const std::string& breakdown, Outcome& outcome)
 {
     if (breakdown.empty()) return;
     spdlog::error("pbskin: {}: numerical breakdown: {}", name, breakdown);
@@ -175,10 +204,9 @@ void begin(const PlannedStudy& planned)
         fmt::join(names, ", "));
 }
 
-// results: of the runs to do, in their order.
-StudyOutcome outcome_of(const PlannedStudy& planned, std::span<const PooledResult> results)
+// results: of the runs to do, in their order. A failed run is reported, and verdicts that need it cannot be computed.
+void report(const PlannedStudy& planned, std::span<const PooledResult> results, Outcome& outcome)
 {
-    StudyOutcome outcome;
     for (const StudyRun& run : planned.kept)  // a kept breakdown has the same effect as that of a new run
         report_breakdown(run.name, breakdown_on_record(run, (fs::path(planned.folder) / run.name).string()), outcome);
     for (const PooledResult& result : results) {
@@ -187,49 +215,43 @@ StudyOutcome outcome_of(const PlannedStudy& planned, std::span<const PooledResul
         outcome.failed |= !result.finished;
         outcome.refused |= result.refused;
     }
-    write_costs(planned.folder, planned.plan);
-    outcome.finished = finished_runs(planned.folder);
-    return outcome;
 }
 
 // The runs of all these studies share the cores, so that no core is idle while a study ends. then_s: expected wall time
 // of the studies after these [s].
-void run_together(const std::vector<const PlannedStudy*>& planned, int jobs, double then_s,
-                  std::map<const Study*, StudyOutcome>& outcomes)
+void run_together(const std::vector<const PlannedStudy*>& planned, int jobs, double then_s, Outcome& outcome)
 {
     std::vector<PooledWork> work;
-    for (const PlannedStudy* planned_study : planned) {
-        begin(*planned_study);
+    for (const PlannedStudy* planned_study : planned)
         for (const StudyRun& run : planned_study->to_do)
             work.push_back({planned.size() > 1 ? planned_study->study->name + "/" + run.name : run.name, run.cost_s,
                             [&run, folder = (fs::path(planned_study->folder) / run.name).string()] {
                                 return carry_out(run, folder);
                             }});
-    }
     const std::vector<PooledResult> results = run_in_pool(work, jobs, then_s);
     std::span<const PooledResult> left = results;
     for (const PlannedStudy* planned_study : planned) {
-        outcomes.emplace(planned_study->study, outcome_of(*planned_study, left.first(planned_study->to_do.size())));
+        report(*planned_study, left.first(planned_study->to_do.size()), outcome);
         left = left.subspan(planned_study->to_do.size());
     }
 }
 
-// First all studies that share the cores, then those that measure time, one after the other.
-std::map<const Study*, StudyOutcome> run_all(const std::vector<PlannedStudy>& planned, int jobs)
+// First all studies that share the cores, then those that measure time, one after the other. Returns an exit status.
+int run_all(const std::vector<PlannedStudy>& planned, int jobs)
 {
-    std::map<const Study*, StudyOutcome> outcomes;
+    Outcome outcome;
     std::vector<const PlannedStudy*> sharing, alone;
     double then_s = 0.0;
     for (const PlannedStudy& planned_study : planned) {
         (planned_study.study->alone ? alone : sharing).push_back(&planned_study);
-        if (planned_study.study->alone) then_s += expected_cost(*planned_study.study, planned_study.to_do, jobs).wall_s;
+        if (planned_study.study->alone) then_s += expected_wall_s(*planned_study.study, planned_study.to_do, jobs);
     }
-    run_together(sharing, jobs, then_s, outcomes);
+    run_together(sharing, jobs, then_s, outcome);
     for (const PlannedStudy* planned_study : alone) {
-        then_s -= expected_cost(*planned_study->study, planned_study->to_do, jobs).wall_s;
-        run_together({planned_study}, 1, then_s, outcomes);
+        then_s -= expected_wall_s(*planned_study->study, planned_study->to_do, jobs);
+        run_together({planned_study}, 1, then_s, outcome);
     }
-    return outcomes;
+    return outcome.status();
 }
 
 std::vector<analysis::Verdict> verdicts_of(const Study& study, const std::string& folder, const std::string& root)
@@ -293,13 +315,13 @@ int reproduce(const ReproduceArguments& arguments)
 {
     refuse_unknown(arguments.names);
     const std::vector<PlannedStudy> planned = plan_studies(arguments);
-    std::vector<ExpectedCost> expected;
-    for (const PlannedStudy& planned_study : planned)
-        expected.push_back(expected_cost(*planned_study.study, planned_study.to_do, arguments.jobs));
-    if (arguments.cost_only) return fmt::print("{}", expected_cost_table(expected)), exit_finished;
+    if (arguments.records_only) return run_all(planned, arguments.jobs);
     double wall_s = 0.0;
-    for (const ExpectedCost& cost : expected) wall_s += cost.wall_s;
-    if (planned.size() > 1) spdlog::info("{} studies, about {:.0f} min", planned.size(), std::ceil(wall_s / 60.0));
+    for (const PlannedStudy& planned_study : planned)
+        wall_s += expected_wall_s(*planned_study.study, planned_study.to_do, arguments.jobs);
+    if (planned.size() > 1 || arguments.plan_only)
+        spdlog::info("{} studies, about {:.0f} min", planned.size(), std::ceil(wall_s / 60.0));
+    if (arguments.plan_only) return fmt::print("{}", plan_text(planned, arguments.external)), exit_finished;
     name_left_out(planned);
     const std::vector<std::string> other_tets = name_other_tets(planned);
 
@@ -307,27 +329,25 @@ int reproduce(const ReproduceArguments& arguments)
     analysis::remove_abandoned_files(arguments.folder, false);
     CollectedWarnings warnings(analysis::path_in(arguments.folder, "warnings.txt"));
     LastScreen screen{.folder = arguments.folder, .other_tets = other_tets, .full = arguments.full};
-    bool broke_down = false, refused = false, all_hold = true;
-    const std::map<const Study*, StudyOutcome> outcomes = run_all(planned, arguments.jobs);
+    for (const PlannedStudy& planned_study : planned) begin(planned_study);
+    const int status = run_all(planned, arguments.jobs);
+    bool all_hold = true;
     for (const PlannedStudy& planned_study : planned) {
-        const StudyOutcome& outcome = outcomes.at(planned_study.study);
-        broke_down |= outcome.broke_down;
-        refused |= outcome.refused;
-        all_hold &= !outcome.failed;
-        std::istringstream marked(marked_frames(outcome.finished.folders));
+        write_costs(planned_study.folder, planned_study.plan);
+        const FinishedRuns finished = finished_runs(planned_study.folder);
+        std::istringstream marked(marked_frames(finished.folders));
         for (std::string line; std::getline(marked >> std::ws, line);)
             warnings.add(planned_study.study->name + "/" + line);
         for (auto& verdict : verdicts_of(*planned_study.study, planned_study.folder, arguments.folder))
             screen.here.push_back(std::move(verdict));
-        all_hold &= study_holds(*planned_study.study, outcome.finished);
+        all_hold &= study_holds(*planned_study.study, finished);
         const bool has_own_deformers = planned_study.study->plan_with && arguments.external;  // which no record has
         if (!has_own_deformers) screen.studies.push_back(planned_study.study->name);
     }
     const bool repeats = show_last_screen(screen);
     fmt::print("{}", warnings.summary());
     fmt::print("next: pbskin report {}\n", arguments.folder);
-    if (refused) return exit_input;
-    if (broke_down) return exit_breakdown;
+    if (status != exit_finished) return status;
     return repeats && all_computable(screen.here) && all_hold ? exit_finished : exit_bound;
 }
 

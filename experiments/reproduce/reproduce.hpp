@@ -15,7 +15,9 @@ struct ReproduceArguments {
     std::vector<std::string> names;  // of claims or studies; empty: the default set of studies
     std::string folder = "results/reproduce";
     bool full = false, resume = false;
-    bool cost_only = false;  // runs nothing and prints the expected cost
+    bool plan_only = false;     // runs nothing and prints the runs to do as JSON
+    bool records_only = false;  // with `only`: writes nothing but the records of the runs, so that several processes
+                                // may work in one folder
     int jobs = 2;
     std::optional<std::string> external = {};  // a file with deformers of the user's own, for studies that compare them
     // names of runs; the others are kept if they are finished. Empty: all runs of the studies

@@ -135,32 +135,14 @@ void write_costs(const std::string& folder, const StudyPlan& plan)
     table_of(cost_columns, costs).write((fs::path(folder) / "costs.csv").string());
 }
 
-ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs, int jobs)
+double expected_wall_s(const Study& study, const std::vector<StudyRun>& runs, int jobs)
 {
-    ExpectedCost cost{.study = study.name, .runs = static_cast<int>(runs.size())};
-    double longest_s = 0.0;
+    double cpu_s = 0.0, longest_s = 0.0;
     for (const StudyRun& run : runs) {
-        cost.cpu_s += run.cost_s;
+        cpu_s += run.cost_s;
         longest_s = std::max(longest_s, run.cost_s);
     }
-    cost.wall_s = std::max(longest_s, cost.cpu_s / (study.alone ? 1 : jobs));
-    return cost;
-}
-
-std::string expected_cost_table(const std::vector<ExpectedCost>& costs)
-{
-    std::string table = fmt::format("{:<16} {:>6} {:>16} {:>10}\n", "study", "runs", "expected cpu [s]", "wall [min]");
-    ExpectedCost sum{.study = "all"};
-    const auto line = [](const ExpectedCost& cost) {
-        return fmt::format("{:<16} {:>6} {:>16.0f} {:>10.1f}\n", cost.study, cost.runs, cost.cpu_s, cost.wall_s / 60.0);
-    };
-    for (const ExpectedCost& cost : costs) {
-        table += line(cost);
-        sum.runs += cost.runs;
-        sum.cpu_s += cost.cpu_s;
-        sum.wall_s += cost.wall_s;
-    }
-    return table + line(sum);
+    return std::max(longest_s, cpu_s / (study.alone ? 1 : jobs));
 }
 
 }  // namespace experiments

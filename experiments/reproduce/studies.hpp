@@ -29,13 +29,7 @@ std::string breakdown_on_record(const StudyRun& run, const std::string& folder);
 // DIR/STUDY/costs.csv.
 void write_costs(const std::string& folder, const StudyPlan& plan);
 
-// The expected cost of a study, and the wall time with this number of runs in parallel.
-struct ExpectedCost {
-    std::string study;
-    int runs = 0;
-    double cpu_s = 0.0, wall_s = 0.0;
-};
-ExpectedCost expected_cost(const Study& study, const std::vector<StudyRun>& runs, int jobs);
-std::string expected_cost_table(const std::vector<ExpectedCost>& costs);  // one line per study, and their sum
+// The expected wall time of these runs with this number of them in parallel [s].
+double expected_wall_s(const Study& study, const std::vector<StudyRun>& runs, int jobs);
 
 }  // namespace experiments

@@ -173,7 +173,7 @@ class OwnDeformer(program.ProgramTest):
 
     def run_commands_of_the_readme(self):
         """Each command of the study with FOLDER and DIR in place; the three minutes of two bodies are not computed, but
-        their cost is printed. The other tests call the commands for scenes. Returns what the run of one body prints."""
+        their plan is printed. The other tests call the commands for scenes. Returns what the run of one body prints."""
         of_scenes = {COMPILE, "pbskin run SCENE.toml -o DIR", "pbskin report DIR"}
         commands = [command for command in COMMANDS if command not in of_scenes]
         self.assertEqual(len(commands), 3, commands)
@@ -181,14 +181,14 @@ class OwnDeformer(program.ProgramTest):
         for command in sorted(commands, key=lambda command: "make_all.py" in command):  # the figure follows the run
             words = command.replace("FOLDER", self.folder).replace("DIR", self.path("out")).replace(
                 "pbskin ", f"{program.PBSKIN} ").split()
-            words += ["--cost"] if "reproduce" in words and "--only" not in words else []
+            words += ["--plan"] if "reproduce" in words and "--only" not in words else []
             process = subprocess.run(words, cwd=program.SOURCE, env=ENVIRONMENT, capture_output=True, text=True)
             self.assertEqual(process.returncode, 0, f"{command}: {process.stdout}{process.stderr}")
             printed[command] = process.stderr + process.stdout
         return next(text for command, text in printed.items() if "--only limb" in command)
 
     def runs_to_do(self):
-        return int(re.search(r"^work_precision +(\d+)", self.reproduce("--resume", "--cost").stdout, re.MULTILINE)[1])
+        return len(json.loads(self.reproduce("--resume", "--plan").stdout))
 
     def error_joint_pct(self, positions, pose, member):
         """From the exported reference, by the formula of its manual."""
@@ -288,7 +288,7 @@ class OwnDeformer(program.ProgramTest):
                 (r"sub/d\.toml:4: external\.0\.command = .*\./mine\.sh.*: cannot be started: No such", "work_precision",
                  "--external", "sub/d.toml"),
                 (crashed, "work_precision", "--external", crash), (crashed, "work_precision", "--external", crash,
-                                                                   "--cost"),
+                                                                   "--plan"),
                 (a_run, "volume", "--external", mine), (a_run, "work_precision", "volume", "--external", sound,
                                                         "--only", "limb_twist"),
                 ("--external: expected a file", "work_precision", "--external", ""),

@@ -121,11 +121,11 @@ StudyRun run_of(double cost_s)
 TEST(StudyCosts, SideBySideButNeverShorterThanTheLongestRun)
 {
     const Study study{.name = "volume"};
-    EXPECT_EQ(expected_cost(study, {run_of(10), run_of(20), run_of(30)}, 2).wall_s, 30.0);
-    EXPECT_EQ(expected_cost(study, {run_of(10), run_of(50)}, 2).wall_s, 50.0);
-    EXPECT_EQ(expected_cost(study, {}, 2).wall_s, 0.0);
+    EXPECT_EQ(expected_wall_s(study, {run_of(10), run_of(20), run_of(30)}, 2), 30.0);
+    EXPECT_EQ(expected_wall_s(study, {run_of(10), run_of(50)}, 2), 50.0);
+    EXPECT_EQ(expected_wall_s(study, {}, 2), 0.0);
     const Study alone{.name = "timing", .alone = true};
-    EXPECT_EQ(expected_cost(alone, {run_of(10), run_of(20), run_of(30)}, 2).wall_s, 60.0);
+    EXPECT_EQ(expected_wall_s(alone, {run_of(10), run_of(20), run_of(30)}, 2), 60.0);
 }
 
 // "lost" did not end. A record that is none has no cost, which is not an error.
