@@ -1,13 +1,14 @@
 #!/usr/bin/python3 -B
-"""Parameter sweeps: many runs of one scene by Snakemake, on this machine or on a Slurm cluster, and one table of all of
-them.
+"""Many runs by Snakemake, on this machine or on a Slurm cluster: of one scene, with one table of all of them, or of the
+record.
 
     sweep.py check SWEEP.toml                         lists the runs
     sweep.py run SWEEP.toml -o DIR -j 2               DIR/sweep.csv, costs.csv, sweep.json, runs/NAME/
     sweep.py run SWEEP.toml -o DIR --slurm            the same as Slurm jobs, by the profile slurm next to this script
+    sweep.py reproduce C02 --full -o DIR --slurm      what `pbskin reproduce C02 --full -o DIR` writes and prints
 
-`run` continues where it was stopped. Further arguments go to snakemake, whose exit status it returns (2: bad input).
-README.md describes the sweep file. An installation has this script as `pbskin-sweep`."""
+Both continue where they were stopped. Further arguments go to snakemake, whose exit status is returned if a run failed
+(2: bad input). README.md describes the sweep file. An installation has this script as `pbskin-sweep`."""
 import argparse
 import fcntl
 import hashlib
@@ -18,11 +19,15 @@ import os
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 import tomllib
 
+import merge
+
 HERE = pathlib.Path(__file__).resolve().parent
 KEY = re.compile(r"[A-Za-z_]\w*(\.\w+)+")
+WHOLE_MACHINE = 1000  # more than runs at once
 
 
 class SweepError(Exception):
@@ -32,7 +37,8 @@ class SweepError(Exception):
 class Sweep:
     """A sweep file. scene: as pbskin takes it. rows: deformers or frames. batch: runs per Slurm job. runs: name ->
     {key: value as TOML}, of the keys that vary. The name is the hash of scene and keys, so that a sweep that grows
-    keeps the runs that it has. files: that scene or keys name."""
+    keeps the runs that it has. files: that scene or keys name. written: by each run."""
+    written = ["runs/{name}/run.json", "runs/{name}/metrics.csv"]
 
     def __init__(self, file):
         self.file = pathlib.Path(file)
@@ -122,7 +128,51 @@ class Sweep:
         return runs
 
     def arguments(self, name):
-        return [part for key, value in (self.fixed | self.runs[name]).items() for part in ("--set", f"{key}={value}")]
+        """Of pbskin, in the folder of the results."""
+        values = self.fixed | self.runs[name]
+        overrides = [part for key, value in values.items() for part in ("--set", f"{key}={value}")]
+        return ["run", self.scene, "--quiet", "-o", f"runs/{name}", *overrides]
+
+    def measures_time(self, name):
+        return False
+
+    def conclude(self, pbskin):
+        merge.write(self, pathlib.Path())
+
+
+class Record:
+    """The runs to do of `pbskin reproduce`, as planned() writes them, with the interface of Sweep. The program itself
+    knows which runs are finished."""
+    written, files, batch = ["{name}/run.json"], [], 1
+
+    def __init__(self, file):
+        self.begun_in, self.verb, runs = json.loads(pathlib.Path(file).read_text(encoding="utf-8"))
+        self.runs = {run["run"]: run for run in runs}
+
+    def arguments(self, name):
+        return ["reproduce", *self.runs[name]["arguments"], "-o", "."]
+
+    def measures_time(self, name):
+        return self.runs[name]["alone"]
+
+    def conclude(self, pbskin):
+        """Becomes pbskin, which writes the tables, prints the last screen, and ends with its own exit status."""
+        os.chdir(self.begun_in)
+        os.execv(pbskin, [pbskin, *self.verb])
+
+
+def planned(options, is_dry):
+    """Writes the runs to do of `reproduce` to a file, and removes their records of another revision or settings."""
+    verb = ["reproduce", *options.input, *["--full"] * options.full, "--resume", "-o", str(options.output)]
+    process = subprocess.run([options.pbskin, *verb, "--plan"], stdout=subprocess.PIPE, check=False)
+    if process.returncode:
+        sys.exit(process.returncode)
+    runs = json.loads(process.stdout)
+    file = options.output / "workflow.json"
+    file.write_text(json.dumps([os.getcwd(), verb, runs], indent=1) + "\n", encoding="utf-8")
+    for run in [] if is_dry else runs:
+        (options.output / run["run"] / "run.json").unlink(missing_ok=True)
+    return file
 
 
 def named_files(text, folder):
@@ -150,7 +200,8 @@ def toml_of(value):
     return json.dumps(value, ensure_ascii=False)
 
 
-read = Sweep
+def read(file):
+    return (Record if str(file).endswith(".json") else Sweep)(file)
 
 
 def program():
@@ -161,7 +212,7 @@ def program():
     return str(place) if place.is_file() else shutil.which("pbskin") or str(place)
 
 
-def run(plan, options, more):
+def run(options, more):
     if not shutil.which("snakemake"):
         raise SweepError("snakemake is not installed")
     if not os.access(options.pbskin, os.X_OK):
@@ -172,28 +223,38 @@ def run(plan, options, more):
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         raise SweepError(f"{options.output}: another sweep runs there") from None
+    if options.verb == "run":
+        file = options.input[0]
+    else:
+        file = planned(options, {"-n", "--dry-run", "--dryrun"} & set(more))
+        more = ["--forceall", *more]  # all runs of the plan are to do
     os.set_inheritable(lock, True)  # unlike snakemake's own lock, this one ends with snakemake, however it ends
-    slurm = ["--profile", str(HERE / "slurm"), "--group-components", f"runs={plan.batch}"]
-    where = slurm if options.slurm else ["--cores", str(options.jobs), "--quiet", "rules", "--scheduler", "greedy"]
+    slurm = ["--profile", str(HERE / "slurm"), "--group-components", f"runs={read(file).batch}"]
+    here = ["--cores", str(options.jobs), "--resources", f"machine={WHOLE_MACHINE}", "--quiet", "rules",
+            "--scheduler", "greedy"]
     os.execvp("snakemake", ["snakemake", "-s", str(HERE / "Snakefile"), "-d", str(options.output), "--nolock",
-                            "--rerun-incomplete", "--rerun-triggers", "mtime", "params", "input", *where, *more,
-                            "--config", f"sweep={os.path.abspath(options.sweep)}",
+                            "--rerun-incomplete", "--rerun-triggers", "mtime", "params", "input",
+                            *(slurm if options.slurm else here), *more, "--config", f"sweep={os.path.abspath(file)}",
                             f"pbskin={os.path.abspath(options.pbskin)}"])
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("verb", choices=["check", "run"])
-    parser.add_argument("sweep")
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("results/sweep"))
+    parser.add_argument("verb", choices=["check", "run", "reproduce"])
+    parser.add_argument("input", nargs="*", help="a sweep; of reproduce: claims or studies, by default its own choice")
+    parser.add_argument("-o", "--output", type=pathlib.Path, help="by default results/sweep or results/reproduce")
     parser.add_argument("-j", "--jobs", type=int, default=1, help="runs at once; on Slurm the profile states it")
+    parser.add_argument("--full", action="store_true", help="of reproduce")
     parser.add_argument("--slurm", action="store_true")
     parser.add_argument("--pbskin", default=program())
-    options, more = parser.parse_known_args()
+    options, more = parser.parse_known_intermixed_args()
+    if options.verb != "reproduce" and len(options.input) != 1:
+        parser.error("expected one sweep file")
+    options.output = options.output or pathlib.Path("results", "reproduce" if options.verb == "reproduce" else "sweep")
     try:
-        plan = read(options.sweep)
-        if options.verb == "run":
-            run(plan, options, [option for option in more if option != "--"])
+        plan = Sweep(options.input[0]) if options.verb != "reproduce" else None
+        if options.verb != "check":
+            run(options, [option for option in more if option != "--"])
         for name, keys in plan.runs.items():
             print(name, *(f"{key}={value}" for key, value in keys.items()))
         print(f"{len(plan.runs)} runs")

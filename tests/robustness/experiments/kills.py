@@ -11,6 +11,7 @@ import random
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -239,6 +240,31 @@ class ResumedStudy(program.ProgramTest):
         alter(record, lambda other: other["work"]["settings"].update(seed="another"))
         self.assertEqual(only(RUNS[1]).returncode, 1)
         self.assertFalse(record.exists())
+
+    @unittest.skipUnless(shutil.which("snakemake"), "snakemake is not installed")
+    def test_by_a_workflow(self):
+        """It ends as `reproduce` does, with the same records. A run that fails is named, and only that is made again."""
+        whole, _ = undisturbed("momentum")
+        self.script("failing", f'case "$*" in *"--only human"*) exit 2;; esac\nexec {program.PBSKIN} "$@"\n')
+        results = self.killed.relative_to(self.folder)
+
+        def workflow(pbskin):
+            sweep = pathlib.Path(program.SOURCE, "experiments/sweeps/sweep.py")
+            return subprocess.run([sys.executable, "-B", sweep, "reproduce", "momentum", "-o", results, "-j", "2",
+                                   "--pbskin", pbskin], cwd=self.folder, capture_output=True, text=True)
+
+        failed = workflow("./failing")
+        self.assertEqual(failed.returncode, 1, failed.stderr)
+        self.assertIn("momentum/human/run.json", failed.stderr)
+        self.assertFalse((self.killed / "claims.json").exists())
+        first = self.killed / "momentum" / "limb" / "run.json"
+        before = identity(first)
+        ended = workflow(program.PBSKIN)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertIn(f"next: pbskin report {results}\n", ended.stdout)
+        self.assertEqual(identity(first), before)
+        made = run_records.records(self.killed)
+        self.assertEqual({name: made.get(name) for name in run_records.records(whole)}, run_records.records(whole))
 
     def test_a_kept_breakdown_counts(self):
         results = self.whole

@@ -15,9 +15,11 @@ import unittest
 
 import program
 import reliability
+import run_records
 import slurm_cluster
 
 SWEEPS = pathlib.Path(program.SOURCE, "experiments/sweeps")
+STUDIES = ["momentum", "temporal"]
 OWN = pathlib.Path(__file__).with_name("slurm_sweeps")
 
 
@@ -38,14 +40,15 @@ class Sweeps(program.ProgramTest):
         reliability.tell("slurm_sweeps", "sweeps on Slurm equal to local ones, byte for byte", Sweeps.equal,
                          Sweeps.compared)
 
-    def command(self, sweep, name, *options):
-        start = [sys.executable, "-B", str(SWEEPS / "sweep.py"), "run", str(sweep)]
+    def command(self, sweep, name, *options, verb="run"):
+        what = sweep if verb == "reproduce" else [str(sweep)]
+        start = [sys.executable, "-B", str(SWEEPS / "sweep.py"), verb, *what]
         return [*start, "-o", self.path(name), "--pbskin", program.PBSKIN, *options]
 
-    def sweep(self, sweep, name, *options, status=0):
+    def sweep(self, sweep, name, *options, status=0, verb="run"):
         start = time.monotonic()
-        process = subprocess.run(self.command(sweep, name, *options), env=self.cluster.environment, capture_output=True,
-                                 text=True, timeout=600)
+        process = subprocess.run(self.command(sweep, name, *options, verb=verb), env=self.cluster.environment,
+                                 capture_output=True, text=True, timeout=600)
         print(f"{name}: {time.monotonic() - start:.1f} s", flush=True)
         self.assertEqual(process.returncode, status, process.stderr[-4000:])
         return process
@@ -86,6 +89,15 @@ class Sweeps(program.ProgramTest):
         self.sweep(example, "human_slurm", "--slurm")
         self.assert_same_tables("human_here", "human_slurm", rows=12 * 2)
         self.assertEqual({path: path.stat().st_ino for path in first}, first)
+
+    def test_studies_of_which_one_measures_time(self):
+        here = program.run("reproduce", *STUDIES, "-o", self.path("studies_here"))
+        slurm = self.sweep(STUDIES, "studies_slurm", "--slurm", status=here.returncode, verb="reproduce")
+        self.assertIn(" claim ", slurm.stdout)
+        self.assertTrue(self.jobs_of("studies_slurm"))
+        expected, made = (run_records.records(self.path(name)) for name in ("studies_here", "studies_slurm"))
+        for name, content in expected.items():
+            self.assertEqual(made.get(name), content, name)
 
     def test_told_to_end_its_jobs_leave_the_queue(self):
         process = subprocess.Popen(self.command(OWN / "long.toml", "ended", "--slurm"), text=True,

@@ -45,7 +45,7 @@ class SweepFile(SweepTest):
         plan = self.read(GOOD)
         self.assertEqual([tuple(keys.values()) for keys in plan.runs.values()],
                          list(itertools.product(["0.1", "0.2"], ["1", "2", "3"])))
-        self.assertEqual(plan.arguments(list(plan.runs)[4])[1::2],
+        self.assertEqual(plan.arguments(list(plan.runs)[4])[6::2],
                          ["motion.frames=3", 'deformers.use=["lbs", "pbs"]', "pbs.k_stretch=0.2", "pbs.iterations=2"])
 
     def test_listed_runs_each_over_the_grid(self):
