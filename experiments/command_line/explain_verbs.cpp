@@ -245,8 +245,10 @@ bool explain_claim(const std::string& name)
 
 std::string extent_text(const Study& study, bool full)
 {
-    const ExpectedCost cost = expected_cost(study, study.plan(full).runs, 1);
-    return fmt::format("{} runs, {:.1f} minutes on one core", cost.runs, cost.cpu_s / 60.0);
+    double cost_s = 0.0;
+    const StudyPlan plan = study.plan(full);
+    for (const StudyRun& run : plan.runs) cost_s += run.cost_s;
+    return fmt::format("{} runs, {:.1f} minutes on one core", plan.runs.size(), cost_s / 60.0);
 }
 
 std::string part_text(Extent extent)
