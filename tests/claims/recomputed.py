@@ -604,7 +604,8 @@ class Attacked:
 
 class WrongData(unittest.TestCase):
     """A verdict that holds or is mixed is lost on wrong data, unless attacks.toml states why the sentence stays true;
-    one that is lost does not turn into one that holds. Reference: that table, which was written before the attacks ran."""
+    one that is lost does not turn into one that holds. Reference: that table, which was written before the attacks
+    ran."""
 
     def expect(self, attacked, attack, kinds):
         if attack not in self.reasons:

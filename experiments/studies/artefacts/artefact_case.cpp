@@ -110,7 +110,8 @@ public:
 private:
     Shapes shapes_of(const ArtefactBody& body, const DeformerSpec& spec) const
     {
-        if (!of_.through_sweep || spec.kind != "pbs") return body.posed.shapes(spec, poses_of(spec));
+        if (!of_.through_sweep || !std::any_cast<pbs::PbsOptions>(&spec.options))
+            return body.posed.shapes(spec, poses_of(spec));
         const pbs::Character& character = body.posed.character();
         const pbs::Motion sweep = make_motion(of_.scene.motion, character.skeleton, of_.scene.file);
         const std::vector<pbs::Positions> of_frames = shapes_in_motion(character, sweep, spec);

@@ -245,7 +245,8 @@ class ResumedStudy(program.ProgramTest):
     def test_by_a_workflow(self):
         """It ends as `reproduce` does, with the same records. A run that fails is named, and only that is made again."""
         whole, _ = undisturbed("momentum")
-        self.script("failing", f'case "$*" in *"--only human"*) exit 2;; esac\nexec {program.PBSKIN} "$@"\n')
+        self.script("failing",
+                    f'case "$*" in *"--only human"*) exit 2;; esac\nexec {program.PBSKIN} "$@"\n')
         results = self.killed.relative_to(self.folder)
 
         def workflow(pbskin):
