@@ -243,7 +243,7 @@ class ResumedStudy(program.ProgramTest):
 
     @unittest.skipUnless(shutil.which("snakemake"), "snakemake is not installed")
     def test_by_a_workflow(self):
-        """It ends as `reproduce` does, with the same records. A run that fails is named, and only that is made again."""
+        """It ends as `reproduce` does, with the same records. A run that fails is named, and it alone is made again."""
         whole, _ = undisturbed("momentum")
         self.script("failing",
                     f'case "$*" in *"--only human"*) exit 2;; esac\nexec {program.PBSKIN} "$@"\n')
