@@ -74,6 +74,17 @@ TEST(CheckBaseline, HoldsWithinTheToleranceAndForEqualCounts)
               "frame 0: tets was 21, is 20, tolerance 0 (3 of 3 frames differ)");
 }
 
+TEST(CheckBaseline, OfMoreOrFewerFramesFails)
+{
+    const CsvTable three = baseline_of(metrics("0.2"));
+    const auto is_not_last = [](const CsvTable::Row& row) { return !row.has({{"deformer", "pbs"}, {"frame", 2}}); };
+    const CsvTable two = three.where(is_not_last);
+    EXPECT_EQ(compared("0.2", two).message, "3 frames, the baseline has 2");
+    const CheckCase fewer = compare_with_baseline(rules(), "s", two, three, "baseline.csv").at(1);
+    EXPECT_EQ(fewer.state, CheckState::failed);
+    EXPECT_EQ(fewer.message, "2 frames, the baseline has 3");
+}
+
 TEST(CheckBaseline, ASceneThatTheRulesNoLongerHaveFails)
 {
     const CheckRules known = {"check.toml", {{"s", "s", {}, "", 0}}, {}, {}};

@@ -223,6 +223,7 @@ TEST(TableAsAValue, AMissingColumnIsRefusedByTheNamesOfTheTableAndTheColumn)
     EXPECT_EQ(written.rows(), 0);
     written.add({{"ms", 0.5}});
     EXPECT_EQ(written.text(), "method,ms\n,0.5\n");
+    EXPECT_EQ(refusal_of([&] { written[0].number("method"); }), "times.csv:2:1: method: expected a number");
 }
 
 TEST(TableAsAValue, ARowThatIsThereTwiceIsRefusedWithBothLines)

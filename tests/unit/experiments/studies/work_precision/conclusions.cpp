@@ -314,7 +314,7 @@ TEST(Conclusions, HaveFoldsInSharesOfTheirOwn)
     rows.add("pbs", 0.3,
              [](int pose, std::size_t m) { return pose < movements ? 0.5 : 2.0 + 0.1 * static_cast<double>(m); });
     for (PointRow& row : rows.points)
-        if (row.stratum == Stratum::fold) row.skin_mm = 90.0;
+        row.skin_mm = row.stratum == Stratum::fold ? 90.0 : row.pose.back() % 2 ? 1.0 : 5.0;
     for (PointRow& row : rows.points)
         row.inverted = row.method == "pbs" && (row.pose == pose_name(1) || row.pose == pose_name(41)) ? 7 : 0;
     const Comparison comparison = rows.concluded();
