@@ -1,6 +1,6 @@
-// The tables over all poses. Reference: rows that are made here, whose shares, decisions and choices are known by
-// construction, and the formulas evaluated by hand. tests/unit/analysis/statistics/paired_comparison.cpp checks the
-// steps of a decision.
+// The tables over all poses: what the kept tables do not have. Reference: rows that are made here, whose shares,
+// decisions and choices are known by construction. The kept tables check the rest
+// (tests/regression/experiments/kept_values.cpp).
 #include "experiments/studies/work_precision/conclusions.hpp"
 
 #include <gtest/gtest.h>
@@ -115,23 +115,12 @@ std::vector<std::string> ranked(const Comparison& comparison, ComparisonTable ta
 }
 
 Decision decision(const Comparison& comparison, const std::string& first, const std::string& second,
-                  ComparisonTable table = known, const std::string& without_body = "", double budget_ms = 1.0)
+                  ComparisonTable table = known, double budget_ms = 1.0)
 {
     return comparison.decisions
-        .find({{"table", table},
-               {"budget_ms", budget_ms},
-               {"without_body", without_body},
-               {"first", first},
-               {"second", second}})
+        .find({{"table", table}, {"budget_ms", budget_ms}, {"without_body", ""}, {"first", first}, {"second", second}})
         .value()
         .value<Decision>("decision");
-}
-
-// By member, at 1 ms.
-std::map<std::string, TableRow> pairs(const Comparison& comparison, const std::string& first, const std::string& second)
-{
-    return comparison.pairs.where({{"table", known}, {"budget_ms", 1.0}, {"first", first}, {"second", second}})
-        .by("member");
 }
 
 // Flesh of each reference leaves 10 to 17 % of LBS's error, flesh of the first member 10 % against it and 90 % against
@@ -155,62 +144,6 @@ const Comparison& comparison_of_four()
     return comparison;
 }
 
-TEST(Conclusions, RankMethodsByTheirShareOfTheErrorOfLbs)
-{
-    const Comparison& comparison = comparison_of_four();
-    const TableRow newton = method_row(comparison, known, 1.0, "quasi_newton");
-    EXPECT_NEAR(newton.number("share"), 0.135, rounding) << "the median over the members";
-    EXPECT_NEAR(newton.number("share_low"), 0.10, rounding);
-    EXPECT_NEAR(newton.number("share_high"), 0.17, rounding);
-    EXPECT_EQ(newton.integer("poses"), movements);
-    EXPECT_EQ(newton.integer("fewest_poses"), movements);
-    EXPECT_EQ(newton.text("takes"), "material attachment start");
-    EXPECT_EQ(newton.text("setting"), "of_quasi_newton");
-    EXPECT_EQ(newton.number("ms"), 0.6);
-    EXPECT_EQ(newton.number("times_pbs"), 1.2);
-    EXPECT_EQ(newton.number("skin_mm"), 3.0);
-    EXPECT_NEAR(method_row(comparison, known, 1.0, "lbs").number("share"), 1.0, rounding);
-    EXPECT_EQ(ranked(comparison, known, 1.0),
-              (std::vector<std::string>{"quasi_newton a", "pbs b", "delta_mush c", "lbs d"}));
-    // Of a guess, the median is 0.9. The pairs with PBS and delta mush depend on the member, so that their letters are
-    // shared.
-    EXPECT_NEAR(method_row(comparison, guessed, 1.0, "quasi_newton").number("share"), 0.9, rounding);
-    EXPECT_EQ(ranked(comparison, guessed, 1.0),
-              (std::vector<std::string>{"pbs a", "delta_mush b", "quasi_newton ab", "lbs c"}));
-}
-
-TEST(Conclusions, DecidePairsByWhatEachMethodIsGiven)
-{
-    const Comparison& comparison = comparison_of_four();
-    EXPECT_EQ(decision(comparison, "lbs", "pbs"), Decision::second_is_nearer);
-    EXPECT_EQ(decision(comparison, "pbs", "quasi_newton"), Decision::second_is_nearer);
-    EXPECT_EQ(decision(comparison, "pbs", "quasi_newton", guessed), Decision::depends);
-    EXPECT_EQ(decision(comparison, "lbs", "quasi_newton", guessed), Decision::second_is_nearer);
-    const auto of_member = pairs(comparison, "lbs", "pbs");
-    ASSERT_EQ(of_member.size(), members_of_family);
-    for (const auto& [member, row] : of_member) {
-        EXPECT_TRUE(row.has({{"wins", 0}, {"ties", 0}, {"losses", movements}})) << member;
-        const double p = row.number("p");
-        EXPECT_NEAR(p, std::exp2(1 - movements), 1e-9 * p);
-        EXPECT_NEAR(row.number("p_holm"), 6.0 * p, 1e-9 * p) << "of six pairs, all of which are as clear";
-        for (const char* ratio : {"ratio", "ratio_low", "ratio_high"}) EXPECT_NEAR(row.number(ratio), 0.5, rounding);
-    }
-}
-
-TEST(Conclusions, HaveTheRowsThatTheyCompareInTheirTable)
-{
-    const Comparison& comparison = comparison_of_four();
-    const std::vector<CsvTable> methods = comparison.errors.groups({"table", "budget_ms", "method"});
-    EXPECT_EQ(methods.size(), 2 * comparison_times().tables_ms.size() * 4);
-    for (const CsvTable& method : methods) {
-        EXPECT_EQ(method.rows(), movements + folds) << method[0].text("method");
-        const double share = method[0].number("nu_0.3_pct") / method[0].number("smooth_pct");
-        const double of_lbs = error_of_lbs(0, 4) / error_of_lbs(0, 0);
-        if (method[0].text("method") == "quasi_newton")
-            EXPECT_NEAR(share, (method[0].has({{"table", known}}) ? 1.4 : 9.0) * of_lbs, 10.0 * rounding * share);
-    }
-}
-
 // Twice the time of a setting on this machine is within the budget, only its time is, or not even that.
 TEST(Conclusions, StateWhetherTheTimeIsKept)
 {
@@ -224,18 +157,6 @@ TEST(Conclusions, StateWhetherTheTimeIsKept)
     EXPECT_EQ(within(0.1, "delta_mush"), "doubled") << "equal";
 }
 
-TEST(Conclusions, AreTiesWhereTheDifferenceIsNotAboveTheReferencesOwnError)
-{
-    Rows rows = four_methods();
-    for (Rows::OwnError& row : rows.own)
-        // LBS's error minus PBS's
-        if (row.pose == pose_name(0) && row.member == "smooth") row.own_error_pct = 0.5 * error_of_lbs(0, 0);
-    const auto of_member = pairs(rows.concluded(), "lbs", "pbs");
-    EXPECT_EQ(of_member.at("smooth").integer("ties"), 1);
-    EXPECT_EQ(of_member.at("smooth").integer("losses"), movements - 1);
-    EXPECT_EQ(of_member.at("nu_0.3").integer("ties"), 0);
-}
-
 // On one member PBS is farther than LBS.
 TEST(Conclusions, AreNotChangedByAMemberWithoutAnOwnError)
 {
@@ -246,86 +167,20 @@ TEST(Conclusions, AreNotChangedByAMemberWithoutAnOwnError)
     EXPECT_EQ(decision(rows.concluded(), "lbs", "pbs"), Decision::depends);
     for (Rows::OwnError& row : rows.own)
         if (row.member == name) row.own_error_pct.reset();
-    const Comparison unknown = rows.concluded();
-    EXPECT_EQ(decision(unknown, "lbs", "pbs"), Decision::second_is_nearer);
-    EXPECT_EQ(pairs(unknown, "lbs", "pbs").size(), members_of_family - 1);
+    EXPECT_EQ(decision(rows.concluded(), "lbs", "pbs"), Decision::second_is_nearer);
     std::erase_if(rows.own, [&](const Rows::OwnError& row) { return row.member == name; });
     EXPECT_EQ(decision(rows.concluded(), "lbs", "pbs"), Decision::second_is_nearer) << "without rows";
 }
 
-TEST(Conclusions, SkipPosesInWhichAMemberWasNotReached)
+TEST(Conclusions, CountInvertedTetsByMovementAndHaveNoShareOfFoldsWithoutFolds)
 {
     Rows rows;
-    rows.add("pbs", 0.3,
-             [](int pose, std::size_t m) { return pose < 3 && m == 6 ? std::nullopt : std::optional(0.5); });
-    const Comparison comparison = rows.concluded();
-    const auto of_member = pairs(comparison, "lbs", "pbs");
-    EXPECT_EQ(of_member.at("rigid_capsules").integer("losses"), movements - 3);
-    EXPECT_EQ(of_member.at("smooth").integer("losses"), movements);
-    const TableRow pbs = method_row(comparison, known, 1.0, "pbs");
-    EXPECT_NEAR(pbs.number("share_high"), 0.5, rounding);
-    EXPECT_EQ(pbs.integer("poses"), movements);
-    EXPECT_EQ(pbs.integer("fewest_poses"), movements - 3);
-}
-
-// Two methods leave 40 and 80 % of the error. Their labels are exchanged in some of the poses.
-Rows with_exchanged_labels(const std::function<bool(int pose)>& is_exchanged)
-{
-    Rows rows;
-    rows.add("delta_mush", 0.05, [&](int pose, std::size_t) { return is_exchanged(pose) ? 0.8 : 0.4; });
-    rows.add("pbs", 0.3, [&](int pose, std::size_t) { return is_exchanged(pose) ? 0.4 : 0.8; });
-    return rows;
-}
-
-TEST(Attacks, ExchangedLabelsReverseTheAnswerOrLeaveItOpen)
-{
-    const auto answer = [](const std::function<bool(int)>& is_exchanged) {
-        return decision(with_exchanged_labels(is_exchanged).concluded(), "delta_mush", "pbs");
-    };
-    EXPECT_EQ(answer([](int) { return false; }), Decision::first_is_nearer);
-    EXPECT_EQ(answer([](int) { return true; }), Decision::second_is_nearer);
-    EXPECT_EQ(answer([](int pose) { return pose % 2 == 0; }), Decision::open);
-    EXPECT_EQ(answer([](int pose) { return pose >= movements; }), Decision::first_is_nearer) << "folds decide nothing";
-    const Comparison open = with_exchanged_labels([](int pose) { return pose % 2 == 0; }).concluded();
-    EXPECT_EQ(method_row(open, known, 1.0, "pbs").text("letters"),
-              method_row(open, known, 1.0, "delta_mush").text("letters"));
-}
-
-// PBS is nearer on three bodies and farther on two. 24 to 16 of the poses are no difference, and 24 to 8 have p =
-// 0.007, of one pair.
-TEST(Conclusions, AreDrawnAgainWithoutEachBody)
-{
-    Rows rows;
-    rows.add("pbs", 0.3, [](int pose, std::size_t) { return pose < 24 ? 0.5 : 2.0; });
-    const Comparison comparison = rows.concluded();
-    EXPECT_EQ(decision(comparison, "lbs", "pbs"), Decision::open);
-    for (const char* body : {"limb", "human", "man"})
-        EXPECT_EQ(decision(comparison, "lbs", "pbs", known, body), Decision::open) << body;
-    for (const char* body : {"lady", "frankie"})
-        EXPECT_EQ(decision(comparison, "lbs", "pbs", known, body), Decision::second_is_nearer) << body;
-    std::set<std::string> excluded;
-    for (const TableRow& row : comparison.decisions) excluded.insert(row.text("without_body"));
-    EXPECT_EQ(excluded, (std::set<std::string>{"", "limb", "human", "man", "lady", "frankie"}));
-}
-
-TEST(Conclusions, HaveFoldsInSharesOfTheirOwn)
-{
-    Rows rows;
-    rows.add("pbs", 0.3,
-             [](int pose, std::size_t m) { return pose < movements ? 0.5 : 2.0 + 0.1 * static_cast<double>(m); });
-    for (PointRow& row : rows.points)
-        row.skin_mm = row.stratum == Stratum::fold ? 90.0 : row.pose.back() % 2 ? 1.0 : 5.0;
+    rows.add("pbs", 0.3, everywhere(0.5));
     for (PointRow& row : rows.points)
         row.inverted = row.method == "pbs" && (row.pose == pose_name(1) || row.pose == pose_name(41)) ? 7 : 0;
-    const Comparison comparison = rows.concluded();
-    const TableRow pbs = method_row(comparison, known, 1.0, "pbs");
-    EXPECT_NEAR(pbs.number("share"), 0.5, rounding);
-    EXPECT_NEAR(pbs.number("fold_share"), 2.35, 10.0 * rounding);
-    EXPECT_NEAR(pbs.number("fold_low"), 2.0, 10.0 * rounding);
-    EXPECT_NEAR(pbs.number("fold_high"), 2.7, 10.0 * rounding);
-    EXPECT_EQ(pbs.integer("inverted_poses"), 1) << "by movement";
-    EXPECT_EQ(pbs.number("skin_mm"), 3.0) << "by movement";
-    EXPECT_EQ(decision(comparison, "lbs", "pbs"), Decision::second_is_nearer);
+    const TableRow pbs = method_row(rows.concluded(), known, 1.0, "pbs");
+    EXPECT_EQ(pbs.integer("inverted_poses"), 1);
+    EXPECT_EQ(pbs.number("times_pbs"), 0.6);
     std::erase_if(rows.points, [](const PointRow& row) { return row.stratum == Stratum::fold; });
     EXPECT_EQ(method_row(rows.concluded(), known, 1.0, "pbs").text("fold_share"), "");
 }
@@ -363,7 +218,7 @@ TEST(Conclusions, HaveASlowMethodOfTheUsersOwnAtAnyTime)
     EXPECT_EQ(method_row(comparison, known, any_time_ms, "pbs").text("setting"), "of_pbs");
     EXPECT_EQ(ranked(comparison, known, any_time_ms).size(), ranked(comparison, known, 10.0).size() + 1);
     EXPECT_NEAR(method_row(comparison, guessed, any_time_ms, "quick").number("share"), 0.9, rounding);
-    EXPECT_EQ(decision(comparison, "pbs", "mine", known, "", any_time_ms), Decision::second_is_nearer);
+    EXPECT_EQ(decision(comparison, "pbs", "mine", known, any_time_ms), Decision::second_is_nearer);
     EXPECT_EQ(comparison.curves.where({{"method", "mine"}, {"budget_ms", any_time_ms}}).rows(), 2)
         << "one point in each table";
     EXPECT_EQ(comparison.profiles.where("budget_ms", any_time_ms).rows(), 0);
@@ -382,27 +237,6 @@ TEST(Conclusions, HaveACurveOverAllTimes)
         EXPECT_NEAR(curve.number(i, "share"), i < 3 ? 0.8 : 0.5, rounding);
         EXPECT_TRUE(curve[i].has({{"setting", i < 3 ? "in_haste" : "of_pbs"}, {"ms", i < 3 ? 0.04 : 0.3}})) << i;
     }
-}
-
-// In ten of the 40 poses PBS leaves 30 % of the error and in the others 45 %; on one member it leaves 60 % everywhere,
-// and on another one half of the poses has no reference.
-TEST(Profiles, AreSharesOfSolvedPosesInTheMeanOverTheMembers)
-{
-    Rows rows;
-    const auto is_reached = [](int pose, std::size_t m) { return m != 6 || pose % 2 == 0; };
-    rows.add("pbs", 0.3, [&](int pose, std::size_t m) -> std::optional<double> {
-        if (!is_reached(pose, m)) return {};
-        return m == 2 ? 0.6 : pose < 10 ? 0.3 : 0.45;
-    });
-    for (PointRow& row : rows.points)
-        for (int pose = 0; pose < movements; ++pose)
-            if (row.pose == pose_name(pose) && !is_reached(pose, 6)) row.errors[6].reset();
-    const CsvTable profile = rows.concluded().profiles.where({{"table", known}, {"method", "pbs"}, {"budget_ms", 1.0}});
-    ASSERT_EQ(profile.numbers("target_pct"), (std::vector<double>{20.0, 35.0, 50.0}));
-    EXPECT_EQ(profile.number(0, "solved_pct"), 0.0);
-    EXPECT_DOUBLE_EQ(profile.number(1, "solved_pct"), 7.0 * 25.0 / 8.0)
-        << "five of the twenty poses with rigid capsules are a quarter, too";
-    EXPECT_DOUBLE_EQ(profile.number(2, "solved_pct"), 7.0 * 100.0 / 8.0);
 }
 
 // Of three poses with another start. PBS leaves half of LBS's error in these and 90 % in the others.
@@ -425,35 +259,6 @@ TEST(OtherStarts, AreComparedInTheirOwnPosesAgainstTheFirstMember)
     EXPECT_NEAR(row.number("share_of_setting"), 0.5, rounding);
     EXPECT_EQ(ranked(comparison, known, 1.0), (std::vector<std::string>{"pbs a", "lbs b"}))
         << "a start has no row of its own";
-}
-
-// By hand: geometric means sqrt(0.5 0.5) and sqrt(0.25 0.5) over the two frames.
-TEST(Motion, HasTheSharesOfTheColdAndThePlayedFrames)
-{
-    CsvTable played(played_columns, "played.csv");
-    const auto add = [&](const char* pose, const char* method, FrameGuess start, double error_pct, double skin_mm,
-                         double ms) {
-        played.add_row({pose, "01_01", method, std::string("of_") + method, start, "smooth", ms, error_pct, skin_mm});
-    };
-    for (const auto& [pose, error_pct] : {std::pair("one", 10.0), {"two", 20.0}})
-        for (const FrameGuess start : {FrameGuess::cold, FrameGuess::frame_before})
-            add(pose, "lbs", start, error_pct, 8.0, 0.02);
-    add("one", "pbs", FrameGuess::cold, 5.0, 3.0, 0.2);
-    add("two", "pbs", FrameGuess::cold, 10.0, 5.0, 0.2);
-    add("one", "pbs", FrameGuess::frame_before, 2.5, 1.0, 0.3);
-    add("two", "pbs", FrameGuess::frame_before, 10.0, 3.0, 0.5);
-    const std::vector<ChosenSetting> settings = {
-        {1.0, "lbs", "of_lbs"}, {0.5, "pbs", "of_pbs"}, {1.0, "pbs", "of_pbs"}, {10.0, "pbs", "other"}};
-    const CsvTable rows = concluded_motion(played, settings);
-    ASSERT_EQ(rows.rows(), 2) << "of the times of the tables, and of settings that were played";
-    const TableRow pbs = rows.find({{"method", "pbs"}}).value();
-    EXPECT_TRUE(
-        pbs.has({{"clip", "01_01"}, {"budget_ms", 1.0}, {"setting", "of_pbs"}, {"member", "smooth"}, {"frames", 2}}));
-    EXPECT_NEAR(pbs.number("cold_share"), 0.5, rounding);
-    EXPECT_NEAR(pbs.number("played_share"), std::sqrt(0.125), rounding);
-    EXPECT_EQ(pbs.number("cold_skin_mm"), 4.0);
-    EXPECT_EQ(pbs.number("played_skin_mm"), 2.0);
-    EXPECT_EQ(pbs.number("ms"), 0.4) << "the median of 0.3 and 0.5";
 }
 
 // Settings of PBS in two training poses.
