@@ -1,5 +1,6 @@
-// Reference: the rule at the head of claims.toml, with counts chosen by hand and probabilities of the binomial
-// distribution.
+// Reference: the rule at the head of claims.toml, with counts chosen by hand: thresholds that are met exactly, and
+// values that are missing or censored. tests/claims/recomputed.py computes all verdicts on the kept records a second
+// time.
 #include "analysis/verdicts/verdict.hpp"
 
 #include "analysis/records/record_files.hpp"
@@ -90,34 +91,6 @@ TEST(Verdict, FollowsFromTheShareOfTheCases)
     EXPECT_EQ(verdict.runs, std::vector<std::string>{"a/run"});
 }
 
-TEST(Verdict, ThatChanceReachesIsInconclusiveOrNotShownAndNeverFails)
-{
-    Claim claim = radius_claim();
-    claim.no_effect = 0.5;  // sum over 14 or more of 18 heads: 4048 / 2^18
-    const Verdict verdict = judge(claim, records_of(14, 18));
-    EXPECT_NEAR(verdict.by_chance, 4048.0 / 262144.0, 1e-15);
-    EXPECT_EQ(verdict.kind, not_shown);
-    EXPECT_EQ(verdict.inconclusive, Inconclusive::no);
-    EXPECT_EQ(judge(claim, records_of(15, 18)).kind, mixed);
-    EXPECT_EQ(judge(claim, records_of(10, 18)).kind, not_shown);
-    EXPECT_EQ(judge(claim, records_of(9, 18)).kind, fails) << "half of the cases";
-    EXPECT_EQ(judge(claim, records_of(7, 7)).kind, holds) << "1 / 128";
-    const Verdict six = judge(claim, records_of(6, 6));  // 1 / 64
-    EXPECT_EQ(six.kind, inconclusive);
-    EXPECT_EQ(six.inconclusive, Inconclusive::chance);
-}
-
-TEST(Verdict, TakesQFromTheNegativeControlByTheRuleOfSuccession)
-{
-    Records records = records_of(20, 20);
-    EXPECT_DOUBLE_EQ(judge(radius_claim(), records).q, 1.0 / 22.0);
-    // LBS holds in 9 of 20
-    for (int i = 0; i < 9; ++i) records.measurements[static_cast<std::size_t>(4 * i + 1)].value = 1.0;
-    const Verdict verdict = judge(radius_claim(), records);
-    EXPECT_DOUBLE_EQ(verdict.q, 10.0 / 22.0);
-    EXPECT_EQ(verdict.kind, holds);
-}
-
 TEST(Verdict, IsInconclusiveIfAControlMisbehavesOrHasNoRecord)
 {
     const auto with = [](std::size_t control, double value, int cases) {  // 1: LBS, 2: flesh
@@ -134,21 +107,6 @@ TEST(Verdict, IsInconclusiveIfAControlMisbehavesOrHasNoRecord)
     EXPECT_EQ(judge(radius_claim(), records).inconclusive, Inconclusive::control_without_record);
     std::erase_if(records.measurements, [](const Measurement& one) { return one.of.deformer == "dqs"; });
     EXPECT_FALSE(judge(radius_claim(), records).others[2].n) << "a comparison without a record changes nothing";
-}
-
-TEST(Verdict, ExcludesCasesInWhichThereIsNothingToSee)
-{
-    Claim claim = radius_claim();
-    claim.selected_by = "LBS";
-    Records records = records_of(20, 20);
-    for (int i = 0; i < 8; ++i) records.measurements[static_cast<std::size_t>(4 * i + 1)].value = 1.0;
-    std::erase_if(records.measurements,
-                  [](const Measurement& one) { return one.of.deformer == "lbs" && one.of.joint == "19"; });
-    const Verdict verdict = judge(claim, records);
-    EXPECT_EQ(verdict.own.n, 11);
-    EXPECT_EQ(verdict.own.cases[0].excluded, Excluded::nothing_to_see);
-    EXPECT_EQ(verdict.own.cases[19].excluded, Excluded::no_control);
-    EXPECT_EQ(verdict.others[0].n, 19) << "q counts all cases of the control";
 }
 
 TEST(Verdict, TheControlThatSelectsTheCasesMustFailInFiveOfThem)
@@ -173,26 +131,6 @@ TEST(Verdict, TheControlThatSelectsTheCasesMustFailInFiveOfThem)
             return one.of.deformer == "pbs" && one.of.joint == std::to_string(i);
         });
     EXPECT_EQ(judge(claim, records).inconclusive, Inconclusive::too_few_cases) << "it fails in cases that PBS lacks";
-}
-
-TEST(Verdict, AveragesTheDependentValuesOfACaseAndDividesThemByThoseOfAnother)
-{
-    Claim claim = radius_claim();
-    claim.mean = Mean::geometric;
-    claim.own.over = {.deformer = "flesh"};
-    std::vector<Measurement> measured = {radius("pbs", 0, 0.4), radius("pbs", 0, 0.9), radius("flesh", 0, 0.5),
-                                         radius("pbs", 2, 1.0)};
-    measured[0].of.order = "plain";
-    measured[0].low = 0.1;
-    const Judged of = judged(claim, claim.own, measured);
-    ASSERT_EQ(of.cases.size(), 2u);
-    EXPECT_DOUBLE_EQ(of.cases[0].value, 0.6 / 0.5);
-    EXPECT_DOUBLE_EQ(of.cases[0].low, 0.1 / 0.5);
-    EXPECT_DOUBLE_EQ(of.cases[0].high, 0.9 / 0.5);
-    EXPECT_EQ(of.cases[0].n, 2);
-    EXPECT_EQ(of.cases[1].excluded, Excluded::nothing_to_compare_with);
-    claim.mean = Mean::arithmetic;
-    EXPECT_DOUBLE_EQ(judged(claim, claim.own, measured).cases[0].value, 0.65 / 0.5);
 }
 
 TEST(Verdict, CensoredValuesDecideOnlyWhatTheyBound)
@@ -266,61 +204,6 @@ TEST(Verdict, UsesRunsBesideTheOthersOnlyWhereThereAreNoOthers)
     EXPECT_EQ(judged(claim, claim.others[1], measured).n, 1);
 }
 
-TEST(Verdict, NamesThePropertyByWhichCasesDiffer)
-{
-    Records records = records_of(20, 20);
-    // bodies "even"
-    for (int joint = 0; joint < 14; joint += 2) records.measurements[static_cast<std::size_t>(4 * joint)].value = 0.1;
-    const Verdict verdict = judge(radius_claim(), records);
-    EXPECT_EQ(verdict.kind, mixed);
-    ASSERT_TRUE(verdict.differs);
-    EXPECT_EQ(verdict.differs->field, "body");
-    EXPECT_EQ(verdict.differs->least_at, "even");
-    EXPECT_EQ(verdict.differs->least, 0.3);
-    EXPECT_EQ(verdict.differs->most, 1.0);
-}
-
-TEST(Verdict, HasTheWiderOfTwoIntervals)
-{
-    const Interval binomial = share_interval(18, 20);
-    EXPECT_EQ(verdict_on(18, 20).interval.low, binomial.low);
-    Records records = records_of(20, 20);
-    // one body of two
-    for (int joint = 0; joint < 18; joint += 2) records.measurements[static_cast<std::size_t>(4 * joint)].value = 0.1;
-    const Verdict verdict = judge(radius_claim(), records);
-    EXPECT_EQ(verdict.interval.low, 0.1) << "both bodies drawn are the one of which one joint of ten holds";
-    EXPECT_EQ(verdict.interval.high, 1.0);
-}
-
-// Twenty joints of a clip hold, and ten joints in another motion do not. Flesh was not measured in the other motion.
-TEST(Verdict, JudgesHeldOutCasesApartWithTheControlsThatTheyLack)
-{
-    Claim claim = radius_claim();
-    claim.held_out = {{.motion = "range_of_motion"}};
-    Records records = records_of(20, 20);
-    EXPECT_TRUE(judge(claim, records).held_out.empty());
-    for (const Measurement& one : records_of(0, 10).measurements) {
-        if (one.of.deformer == "flesh") continue;
-        records.measurements.push_back(one);
-        records.measurements.back().of.motion = "range_of_motion";
-    }
-    const Verdict verdict = judge(claim, records);
-    EXPECT_EQ(verdict.kind, holds);
-    EXPECT_EQ(verdict.own.n, 20);
-    ASSERT_EQ(verdict.held_out.size(), 1u);
-    const Verdict& later = verdict.held_out.front();
-    EXPECT_EQ(later.kind, fails);
-    EXPECT_EQ(later.own.n, 10);
-    EXPECT_EQ(later.others[0].n, 10) << "LBS in the other motion";
-    EXPECT_EQ(later.others[1].n, 20) << "flesh in the clip";
-    EXPECT_EQ(claims_json({verdict}, "r").at("claims").at(0).at("held_out").at("verdict"), "fails");
-    claim.selected_by = "LBS";
-    for (Measurement& one : records.measurements)
-        if (one.of.deformer == "lbs" && !one.of.motion.empty()) one.of.deformer = "another";
-    EXPECT_EQ(judge(claim, records).held_out.front().own.n, 0)
-        << "whether LBS fails in a case shows nothing about another one";
-}
-
 TEST(Verdict, OneNumberIsJudgedByItsRange)
 {
     Claim claim = radius_claim();
@@ -369,62 +252,10 @@ TEST(Verdict, MissingRecordsAreNoResult)
     EXPECT_EQ(judge(radius_claim(), records).missing, std::vector<std::string>{"walk"});
     records.left_out = {{"walk", "not installed"}};
     EXPECT_EQ(judge(radius_claim(), records).kind, holds);
-}
-
-TEST(Verdict, PrintedValuesAreConsistentOrNot)
-{
-    Claim claim;
-    claim.id = "C14";
-    claim.rule = ClaimRule::printed;
-    std::vector<PrintedValue> printed = {{"C14", "edges", {.model = "Man"}, 5.0, 4.0, 6.0},
-                                         {"C14", "edges", {.model = "Lady"}, 7.0, 4.0, 6.0},
-                                         {"C13", "edges", {}, 0.0, 4.0, 6.0}};
-    EXPECT_EQ(judge(claim, {.printed = printed}).kind, inconsistent_in_print);
-    EXPECT_EQ(judge(claim, {.printed = printed}).printed.size(), 2u);
-    printed[1].printed = 6.0;
-    EXPECT_EQ(judge(claim, {.printed = printed}).kind, holds);
-    EXPECT_EQ(judge(claim, {}).kind, not_computable);
-}
-
-TEST(Verdict, DefinitionsAndUntestableClaimsSayWhy)
-{
-    Claim claim = radius_claim();
-    claim.reason = "no numbers";
-    claim.rule = ClaimRule::definition;
-    EXPECT_EQ(judge(claim, records_of(3, 20)).kind, definition);
-    EXPECT_EQ(judge(claim, records_of(3, 20)).own.held, 3) << "its values are reported";
-    claim.rule = ClaimRule::untestable;
-    EXPECT_EQ(judge(claim, {}).kind, untestable);
-    EXPECT_EQ(judge(claim, {}).inconclusive, Inconclusive::no);
+    EXPECT_EQ(judge({.id = "C14", .rule = ClaimRule::printed}, {}).kind, not_computable);
 }
 
 // Reference: the contract of claims.json, claims.md and the terminal's table.
-
-TEST(ClaimsReport, HoldsTheFactsOfTheVerdict)
-{
-    Claim claim = radius_claim();
-    claim.quantities = {{"radius", "smallest radius", "1"}};
-    const Verdict verdict = judge(claim, records_of(18, 20));
-    const nlohmann::json document = claims_json({verdict}, "abc"), of = document.at("claims").at(0);
-    EXPECT_EQ(document.at("schema"), 4);
-    EXPECT_EQ(document.at("revision"), "abc");
-    EXPECT_EQ(document.at("quantities").at("radius").at("title"), "smallest radius");
-    EXPECT_EQ(of.at("verdict"), "mixed");
-    EXPECT_EQ(of.at("held"), 18);
-    EXPECT_EQ(of.at("n"), 20);
-    EXPECT_EQ(of.at("share"), 0.9);
-    EXPECT_EQ(of.at("least"), 0.5);
-    EXPECT_EQ(of.at("median"), 0.95);
-    EXPECT_EQ(of.at("cases").size(), 20u);
-    EXPECT_EQ(of.at("cases").at(0).at("joint"), "0");
-    EXPECT_EQ(of.at("cases").at(0).at("holds"), true);
-    EXPECT_EQ(of.at("cases").at(0).at("threshold_high"), nullptr) << "infinite";
-    EXPECT_EQ(of.at("controls").size(), 2u);
-    EXPECT_EQ(of.at("controls").at(0).at("role"), "negative_control");
-    EXPECT_EQ(of.at("compared").at(0).at("name"), "DQS");
-    EXPECT_EQ(of.at("differs"), nullptr) << "each joint has one case";
-    EXPECT_EQ(claims_json({judge(claim, {})}, "").at("claims").at(0).at("share"), nullptr);
-}
 
 TEST(ClaimsReport, OneRowPerClaim)
 {
