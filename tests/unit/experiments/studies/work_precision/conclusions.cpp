@@ -261,6 +261,35 @@ TEST(OtherStarts, AreComparedInTheirOwnPosesAgainstTheFirstMember)
         << "a start has no row of its own";
 }
 
+// By hand: geometric means sqrt(0.5 0.5) and sqrt(0.25 0.5) over the two frames.
+TEST(Motion, HasTheSharesOfTheColdAndThePlayedFrames)
+{
+    CsvTable played(played_columns, "played.csv");
+    const auto add = [&](const char* pose, const char* method, FrameGuess start, double error_pct, double skin_mm,
+                         double ms) {
+        played.add_row({pose, "01_01", method, std::string("of_") + method, start, "smooth", ms, error_pct, skin_mm});
+    };
+    for (const auto& [pose, error_pct] : {std::pair("one", 10.0), {"two", 20.0}})
+        for (const FrameGuess start : {FrameGuess::cold, FrameGuess::frame_before})
+            add(pose, "lbs", start, error_pct, 8.0, 0.02);
+    add("one", "pbs", FrameGuess::cold, 5.0, 3.0, 0.2);
+    add("two", "pbs", FrameGuess::cold, 10.0, 5.0, 0.2);
+    add("one", "pbs", FrameGuess::frame_before, 2.5, 1.0, 0.3);
+    add("two", "pbs", FrameGuess::frame_before, 10.0, 3.0, 0.5);
+    const std::vector<ChosenSetting> settings = {
+        {1.0, "lbs", "of_lbs"}, {0.5, "pbs", "of_pbs"}, {1.0, "pbs", "of_pbs"}, {10.0, "pbs", "other"}};
+    const CsvTable rows = concluded_motion(played, settings);
+    ASSERT_EQ(rows.rows(), 2) << "of the times of the tables, and of settings that were played";
+    const TableRow pbs = rows.find({{"method", "pbs"}}).value();
+    EXPECT_TRUE(
+        pbs.has({{"clip", "01_01"}, {"budget_ms", 1.0}, {"setting", "of_pbs"}, {"member", "smooth"}, {"frames", 2}}));
+    EXPECT_NEAR(pbs.number("cold_share"), 0.5, rounding);
+    EXPECT_NEAR(pbs.number("played_share"), std::sqrt(0.125), rounding);
+    EXPECT_EQ(pbs.number("cold_skin_mm"), 4.0);
+    EXPECT_EQ(pbs.number("played_skin_mm"), 2.0);
+    EXPECT_EQ(pbs.number("ms"), 0.4) << "the median of 0.3 and 0.5";
+}
+
 // Settings of PBS in two training poses.
 std::vector<PointRow> trained(const std::string& setting, double ms,
                               const std::vector<std::optional<double>>& errors_pct)
