@@ -43,7 +43,10 @@ struct Weighted {
     double mean_of(double (*term)(double)) const
     {
         CompensatedSum sum, total;
-        for (std::size_t i = 0; i < values.size(); ++i) sum += weights[i] * term(values[i]), total += weights[i];
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            sum += weights[i] * term(values[i]);
+            total += weights[i];
+        }
         return total.value() > 0.0 ? sum.value() / total.value() : not_known;
     }
 };

@@ -169,7 +169,10 @@ std::string asked_text(const Claim& claim)
     std::vector<std::string> texts;
     for (Threshold threshold : claim.own.thresholds) {
         if (!threshold.quantity.empty() && threshold.quantity != claim.own.quantities.front()) continue;
-        if (in_percent) threshold.low *= 100.0, threshold.high *= 100.0;
+        if (in_percent) {
+            threshold.low *= 100.0;
+            threshold.high *= 100.0;
+        }
         const auto named = std::ranges::find(claim.quantities, claim.own.quantities.front(), &Quantity::name);
         std::string unit = in_percent ? " %" : has_unit && named != claim.quantities.end() ? " " + named->unit : "";
         std::string text = threshold_text(threshold);
