@@ -86,7 +86,10 @@ int RestSkin::descend(const Vec3& point, int skin_vertex) const
         for (int k = first_[before]; k < first_[before + 1]; ++k)
             for (const int v : triangles_.row(fan_[k])) {
                 const double distance2 = (rest_.row(v).transpose() - point).squaredNorm();
-                if (distance2 < least) least = distance2, skin_vertex = v;
+                if (distance2 < least) {
+                    least = distance2;
+                    skin_vertex = v;
+                }
             }
     }
     return skin_vertex;

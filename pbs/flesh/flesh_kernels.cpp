@@ -32,15 +32,24 @@ template <typename Scalar>
 
     const LaneVector<Scalar> zero{Scalar(0), Scalar(0), Scalar(0)};
     LaneVector<Scalar> on2 = zero, on3 = zero, on4 = zero;
-    add(pressure, n2, on2), add(pressure, n3, on3), add(pressure, n4, on4);
-    add(w[0], p21, on2), add(w[1], p31, on3), add(w[2], p41, on4);
+    add(pressure, n2, on2);
+    add(pressure, n3, on3);
+    add(pressure, n4, on4);
+    add(w[0], p21, on2);
+    add(w[1], p31, on3);
+    add(w[2], p41, on4);
     const LaneVector<Scalar> to1 = on2 + (on3 + on4);  // what pulls at 1 pulls at the others in the opposite direction
-    add(Lanes<Scalar>(-w[3]), p32, on2), add(w[3], p32, on3);
-    add(Lanes<Scalar>(-w[4]), p42, on2), add(w[4], p42, on4);
-    add(Lanes<Scalar>(-w[5]), p43, on3), add(w[5], p43, on4);
+    add(Lanes<Scalar>(-w[3]), p32, on2);
+    add(w[3], p32, on3);
+    add(Lanes<Scalar>(-w[4]), p42, on2);
+    add(w[4], p42, on4);
+    add(Lanes<Scalar>(-w[5]), p43, on3);
+    add(w[5], p43, on4);
 
-    add(Lanes<Scalar>(Scalar(-1)), to1, g[0]), add(Lanes<Scalar>(Scalar(1)), on2, g[1]);
-    add(Lanes<Scalar>(Scalar(1)), on3, g[2]), add(Lanes<Scalar>(Scalar(1)), on4, g[3]);
+    add(Lanes<Scalar>(Scalar(-1)), to1, g[0]);
+    add(Lanes<Scalar>(Scalar(1)), on2, g[1]);
+    add(Lanes<Scalar>(Scalar(1)), on3, g[2]);
+    add(Lanes<Scalar>(Scalar(1)), on4, g[3]);
     for (int i = 0; i < 4; ++i) scatter(g[i], gradient, batch.offset[i] + first);
     const Lanes<Scalar> of_edges = w[0] * dot(p21, p21) + w[1] * dot(p31, p31) + w[2] * dot(p41, p41) +
                                    w[3] * dot(p32, p32) + w[4] * dot(p42, p42) + w[5] * dot(p43, p43);

@@ -190,7 +190,9 @@ template <typename Scalar>
     Matrix3<Lanes<Scalar>> f;
     for (int j = 0; j < 3; ++j) {
         const LaneVector<Scalar> column = combined(edges, inverse.m[j], inverse.m[3 + j], inverse.m[6 + j]);
-        f.m[j] = column.x, f.m[3 + j] = column.y, f.m[6 + j] = column.z;
+        f.m[j] = column.x;
+        f.m[3 + j] = column.y;
+        f.m[6 + j] = column.z;
     }
     return f;
 }

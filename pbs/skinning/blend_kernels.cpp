@@ -68,7 +68,9 @@ PBS_INLINE void move(const PackedDualQuaternion<Scalar>& blended, const Scalar* 
     const Scalar x = v[0] + twice * ((r[1] * u[2] - r[2] * u[1]) + (r[3] * d[0] - d[3] * r[0]));
     const Scalar y = v[1] + twice * ((r[2] * u[0] - r[0] * u[2]) + (r[3] * d[1] - d[3] * r[1]));
     const Scalar z = v[2] + twice * ((r[0] * u[1] - r[1] * u[0]) + (r[3] * d[2] - d[3] * r[2]));
-    moved[0] = x, moved[1] = y, moved[2] = z;
+    moved[0] = x;
+    moved[1] = y;
+    moved[2] = z;
 }
 
 template <class Scalar>

@@ -170,7 +170,11 @@ DirectDeltaMush::DirectDeltaMush(const TetMesh& mesh, const Weights& weights, co
     for (Eigen::Index v = 0; v < mesh.rest.rows(); ++v) {
         double sum = 0.0, blended = 0.0;
         Vec3 first = Vec3::Zero();
-        for (const RawMoments& raw : rows[v]) sum += raw.psi(0), blended += raw.blended, first += raw.psi.segment<3>(1);
+        for (const RawMoments& raw : rows[v]) {
+            sum += raw.psi(0);
+            blended += raw.blended;
+            first += raw.psi.segment<3>(1);
+        }
         const Vec3 centre = first / sum;
         for (const RawMoments& raw : rows[v]) {
             moments_.push_back(centred(raw, 1.0 / sum, centre));

@@ -50,7 +50,11 @@ struct Weights {
         return sum;
     }
     // Appends an entry to the vertex behind the last one, and ends that vertex.
-    void add(int of_bone, double of_weight) { bone.push_back(of_bone), weight.push_back(of_weight); }
+    void add(int of_bone, double of_weight)
+    {
+        bone.push_back(of_bone);
+        weight.push_back(of_weight);
+    }
     void end_vertex() { first.push_back(static_cast<int>(bone.size())); }
 };
 
