@@ -278,8 +278,10 @@ bool explain_deformer_or_scene(const std::string& name)
         return true;
     }
     for (const auto& scene : built_in_scenes())
-        if (scene.name == name)
-            return fmt::print("{} (scene)\n  {}\n\n{}", scene.name, scene.meaning, scene.text), true;
+        if (scene.name == name) {
+            fmt::print("{} (scene)\n  {}\n\n{}", scene.name, scene.meaning, scene.text);
+            return true;
+        }
     return false;
 }
 
@@ -293,7 +295,10 @@ std::vector<const CLI::App*> verbs_of(const CLI::App& app)
 bool explain_verb(const CLI::App& app, const std::string& name)
 {
     for (const CLI::App* verb : verbs_of(app))
-        if (verb->get_name() == name) return fmt::print("{}", verb->help(app.get_name())), true;
+        if (verb->get_name() == name) {
+            fmt::print("{}", verb->help(app.get_name()));
+            return true;
+        }
     return false;
 }
 

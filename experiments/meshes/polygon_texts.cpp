@@ -56,7 +56,10 @@ std::vector<PlyElement> ply_header(TextWords& words)
             elements.push_back({words.whole("element", 0, most)});
         } else if (word == "property" && !elements.empty()) {
             const bool is_list = words.next("property") == "list";
-            if (is_list) words.next("property"), words.next("property");
+            if (is_list) {
+                words.next("property");
+                words.next("property");
+            }
             const std::string_view name = words.next("property");
             elements.back().properties.push_back({is_list, is_list && name.starts_with("vertex_ind")});
         } else if (word == "comment" || word == "obj_info") {

@@ -234,10 +234,13 @@ void count_claims(const fs::path& file, const analysis::CsvTable& table, const a
         if (ids.empty() && is_measured) ids = {values[row.first].claim};
         for (const std::string& id : ids) {
             ComparedClaim& claim = claims[id];
-            if (has_frames)
-                ++claim.frames, claim.frames_differing += row.differing > 0;
-            else
-                claim.numbers += row.numbers, claim.differing += row.differing;
+            if (has_frames) {
+                ++claim.frames;
+                claim.frames_differing += row.differing > 0;
+            } else {
+                claim.numbers += row.numbers;
+                claim.differing += row.differing;
+            }
         }
     }
 }

@@ -30,8 +30,11 @@ std::string range_text(const analysis::Verdict& verdict)
 {
     std::vector<double> values;
     std::string unit;
-    for (const analysis::JudgedCase& judged_case : verdict.own.cases)
-        if (std::isfinite(judged_case.value)) values.push_back(judged_case.value), unit = judged_case.unit;
+    for (const analysis::JudgedCase& judged_case : verdict.own.cases) {
+        if (!std::isfinite(judged_case.value)) continue;
+        values.push_back(judged_case.value);
+        unit = judged_case.unit;
+    }
     if (values.empty()) return "";
     const auto [least, most] = std::ranges::minmax(values);
     return fmt::format("{:.3g} to {:.3g}{}", least, most, unit.empty() || unit == "1" ? "" : " " + unit);

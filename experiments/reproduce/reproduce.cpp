@@ -321,7 +321,10 @@ int reproduce(const ReproduceArguments& arguments)
         wall_s += expected_wall_s(*planned_study.study, planned_study.to_do, arguments.jobs);
     if (planned.size() > 1 || arguments.plan_only)
         spdlog::info("{} studies, about {:.0f} min", planned.size(), std::ceil(wall_s / 60.0));
-    if (arguments.plan_only) return fmt::print("{}", plan_text(planned, arguments.external)), exit_finished;
+    if (arguments.plan_only) {
+        fmt::print("{}", plan_text(planned, arguments.external));
+        return exit_finished;
+    }
     name_left_out(planned);
     const std::vector<std::string> other_tets = name_other_tets(planned);
 

@@ -115,10 +115,14 @@ void set_slopes(const FbxObject& curve, const std::vector<KeyAttributes>& attrib
         const KeyAttributes& own = attributes[k];
         if (keys[k].interpolation != FbxInterpolation::cubic || !(own.flags & (auto_bit | tcb_bit))) continue;
         Neighbours near;
-        if (k > 0)
-            near.before_s = keys[k].time_s - keys[k - 1].time_s, near.change_before = keys[k].value - keys[k - 1].value;
-        if (k + 1 < keys.size())
-            near.after_s = keys[k + 1].time_s - keys[k].time_s, near.change_after = keys[k + 1].value - keys[k].value;
+        if (k > 0) {
+            near.before_s = keys[k].time_s - keys[k - 1].time_s;
+            near.change_before = keys[k].value - keys[k - 1].value;
+        }
+        if (k + 1 < keys.size()) {
+            near.after_s = keys[k + 1].time_s - keys[k].time_s;
+            near.change_after = keys[k + 1].value - keys[k].value;
+        }
         double before = 0.0, after = 0.0;
         if (own.flags & tcb_bit) {
             std::tie(before, after) = tcb_slopes(near, own);

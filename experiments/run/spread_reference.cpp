@@ -171,8 +171,10 @@ void SpreadReference::solve(int number, int frames_left)
     outcome_.seconds += seconds;
     if (solution.step.outcome == pbs::Outcome::finished) {
         solution.positions = deformer_->positions();
-        if (const FemFacts* facts = deformer_->facts())
-            solution.lowest_det_f = facts->lowest_det_f, solution.tips = facts->tips;
+        if (const FemFacts* facts = deformer_->facts()) {
+            solution.lowest_det_f = facts->lowest_det_f;
+            solution.tips = facts->tips;
+        }
         frame.solution = std::move(solution);
         at_ = number;
         reached_s_ += seconds;
@@ -202,8 +204,11 @@ void SpreadReference::continue_from_most_similar(int number)
     for (const int other : {before, after}) {
         if (other < 0 || other >= outcome_.frames) continue;
         const Frame& solved = frames_[static_cast<std::size_t>(other)];
-        if (const double deg = turn_deg(solved.relative); deg < least_deg)
-            least_deg = deg, from = solved.pose, positions = &solved.solution->positions;
+        const double deg = turn_deg(solved.relative);
+        if (!(deg < least_deg)) continue;
+        least_deg = deg;
+        from = solved.pose;
+        positions = &solved.solution->positions;
     }
     deformer_->continue_from(from, *positions);
 }

@@ -211,8 +211,10 @@ nlohmann::json widest_frame(const CsvTable& distances)
     double widest_mm = 0.0;
     nlohmann::json frame;
     for (const CsvTable::Row& row : distances.where({{"deformer", "pbs"}, {"other", "lbs"}}))
-        if (const double mm = finite(row, "rms_mm").value_or(0.0); mm > widest_mm)
-            widest_mm = mm, frame = row.integer("frame");
+        if (const double mm = finite(row, "rms_mm").value_or(0.0); mm > widest_mm) {
+            widest_mm = mm;
+            frame = row.integer("frame");
+        }
     return frame;
 }
 
