@@ -79,7 +79,12 @@ struct StepLoops {
     // share of lanes that hold a constraint, of the batched orders
     std::optional<double> stretch_fill = {}, volume_fill = {};
 
-    void iterate() const { bind(), stretch(), volume(); }
+    void iterate() const
+    {
+        bind();
+        stretch();
+        volume();
+    }
 };
 
 // The initial guess and the posed bind points [m], #V x 3, which each `load` reads and which outlive the loops.

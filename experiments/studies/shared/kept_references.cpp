@@ -108,8 +108,9 @@ pbs::Positions predicted_plus(const pbs::Positions& predicted, const std::vector
 template <typename Reference, typename Visit>
 void for_each_number(Reference& reference, const Visit& visit)
 {
-    visit("linear_distance_pct", reference.linear_distance_pct), visit("energy_j", reference.energy_j),
-        visit("lowest_det_f", reference.lowest_det_f);
+    visit("linear_distance_pct", reference.linear_distance_pct);
+    visit("energy_j", reference.energy_j);
+    visit("lowest_det_f", reference.lowest_det_f);
 }
 
 json json_of(const KeptReference& reference)
@@ -136,8 +137,9 @@ KeptReference reference_of(const json& table, Eigen::Index vertices)
         if (member.name == name) reference.member = member;
     if (to_json(reference.member) != table.at("member"))
         throw std::runtime_error("a member " + name + " that this program does not have");
-    table.at("outcome").get_to(reference.outcome), table.at("newton_steps").get_to(reference.newton_steps),
-        table.at("seconds").get_to(reference.seconds);
+    table.at("outcome").get_to(reference.outcome);
+    table.at("newton_steps").get_to(reference.newton_steps);
+    table.at("seconds").get_to(reference.seconds);
     for_each_number(reference, [&](const char* key, std::optional<double>& value) {
         if (table.contains(key)) value = table.at(key).get<double>();
     });
@@ -188,8 +190,10 @@ KeptReferences unpacked(const std::string& text, const std::string& file, const 
         if (document.at("schema") != kept_schema)
             throw pbs::InputError(file, 0, "schema", document.at("schema").dump(),
                                   fmt::format("expected {}", kept_schema));
-        document.at("pose").get_to(references.pose), document.at("body").get_to(references.body);
-        document.at("mesh_hash").get_to(references.mesh_hash), document.at("revision").get_to(references.revision);
+        document.at("pose").get_to(references.pose);
+        document.at("body").get_to(references.body);
+        document.at("mesh_hash").get_to(references.mesh_hash);
+        document.at("revision").get_to(references.revision);
         if (references.mesh_hash != hash)
             throw pbs::InputError(
                 file, 0, "mesh_hash", references.mesh_hash,

@@ -226,17 +226,24 @@ std::string PosedReference::file_of(const std::string& name, const std::vector<L
         hash.add(character.mesh.rest);
         put(character.mesh.tets.data(), character.mesh.tets.size());
         put(character.binding.bone.data(), character.binding.bone.size());
-        put(character.binding.distance.data(), character.binding.distance.size()),
-            put(character.binding.parameter.data(), character.binding.parameter.size());
+        put(character.binding.distance.data(), character.binding.distance.size());
+        put(character.binding.parameter.data(), character.binding.parameter.size());
         if (!character.artist || !character.artist->is_cut) return;
         const pbs::Weights& holding = character.artist->weights;  // by which bones hold flesh that is cut between parts
-        put(holding.bone.data(), holding.bone.size()), put(holding.weight.data(), holding.weight.size());
+        put(holding.bone.data(), holding.bone.size());
+        put(holding.weight.data(), holding.weight.size());
     };
     put(stated.data(), stated.size());
     put_mesh(character_);  // by which the bones' sizes and the places of its vertices in other tets are found
-    for (const Level& level : levels) put_mesh(level.character), put(&level.element_order, 1);
-    for (const pbs::Bone& bone : character_.skeleton.bones)
-        put(bone.head.data(), 3), put(bone.tail.data(), 3), put(&bone.parent, 1);
+    for (const Level& level : levels) {
+        put_mesh(level.character);
+        put(&level.element_order, 1);
+    }
+    for (const pbs::Bone& bone : character_.skeleton.bones) {
+        put(bone.head.data(), 3);
+        put(bone.tail.data(), 3);
+        put(&bone.parent, 1);
+    }
     for (const auto& of_bone : pose_) put(of_bone.data(), of_bone.matrix().size());
     return (fs::path(kept_in_) / (name + "-" + hash.hex() + ".cbor")).string();
 }
