@@ -90,7 +90,9 @@ void add_pbs(const LoadedBody& body, const StiffnessSetting& setting, pbs::StepN
         shuffle_if(setting.order_seed, constraints);
         for (const auto& constraint : constraints) step.add(constraint, constraint.stiffness, 0.0, set.inverse_mass);
     };
-    add_class(set.bind), add_class(set.stretch), add_class(set.volume);
+    add_class(set.bind);
+    add_class(set.stretch);
+    add_class(set.volume);
 }
 
 void add_xpbd(const LoadedBody& body, const StiffnessSetting& setting, pbs::StepNearRest& step)
@@ -102,7 +104,9 @@ void add_xpbd(const LoadedBody& body, const StiffnessSetting& setting, pbs::Step
         for (const auto& [constraint, compliance] : constraints)
             step.add(constraint, 1.0, compliance, of_body.inverse_mass);
     };
-    add_class(of_body.bind), add_class(of_body.stretch), add_class(of_body.volume);
+    add_class(of_body.bind);
+    add_class(of_body.stretch);
+    add_class(of_body.volume);
 }
 
 // still: pbs::RestingState or SteppedBody.

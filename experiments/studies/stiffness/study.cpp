@@ -94,12 +94,16 @@ double for_one_doubling(const Point& once, const Point& more)
 // The settings between which the ratio is taken.
 analysis::CaseKey over_range(analysis::CaseKey key, Varied varied, double first, double last)
 {
-    if (varied == Varied::iterations)
-        key.iterations = first, key.iterations_to = last;
-    else if (varied == Varied::time_step)
-        key.time_step_s = 1.0 / first, key.time_step_to_s = 1.0 / last;
-    else
-        key.vertices = first, key.vertices_to = last;
+    if (varied == Varied::iterations) {
+        key.iterations = first;
+        key.iterations_to = last;
+    } else if (varied == Varied::time_step) {
+        key.time_step_s = 1.0 / first;
+        key.time_step_to_s = 1.0 / last;
+    } else {
+        key.vertices = first;
+        key.vertices_to = last;
+    }
     return key;
 }
 
@@ -180,8 +184,10 @@ analysis::CsvTable stiffness_exponents(const std::vector<StiffnessRow>& rows, Va
     for (const auto& [key, measured] : cases_of(rows, varied)) {
         if (measured.series.empty() || measured.series.begin()->second.size() < 2) continue;
         std::vector<double> x, stiffness;
-        for (const Point& point : measured.series.begin()->second)
-            x.push_back(point.x), stiffness.push_back(point.stiffness);
+        for (const Point& point : measured.series.begin()->second) {
+            x.push_back(point.x);
+            stiffness.push_back(point.stiffness);
+        }
         const analysis::Interval slope = analysis::observed_order(x, stiffness);
         analysis::CsvTable::NamedCells cells = {
             {"varied", varied},          {"first", shown(x.front())},     {"last", shown(x.back())},

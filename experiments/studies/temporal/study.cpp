@@ -128,8 +128,10 @@ private:
             const TemporalFrame& frame = records_.frames[i];
             ms.push_back(frame.ms);
             if (frame.jitter_mm) jitter_mm.push_back(*frame.jitter_mm);
-            if (frame.largest_jitter_mm > row.largest_jitter_mm)
-                row.largest_jitter_mm = *frame.largest_jitter_mm, row.largest_in_frame = frame.frame;
+            if (frame.largest_jitter_mm > row.largest_jitter_mm) {
+                row.largest_jitter_mm = *frame.largest_jitter_mm;
+                row.largest_in_frame = frame.frame;
+            }
             if (!frame.error_joint_pct) continue;
             errors_pct.push_back(*frame.error_joint_pct);
             if (row.worse_than_cold_frames)

@@ -184,7 +184,10 @@ std::vector<FrameTiming> time_frames(const pbs::Character& character, const pbs:
         FrameTiming& timing = timings.emplace_back(FrameTiming{name_of(order), name_of(precision)});
         const auto ms = [&](FramePart frame_part) { return scaled(spread_of(seconds[frame_part]), 1e3); };
         for (const RecordedPart& part : recorded_parts) timing.*part.ms = ms(part.sample);
-        if (character.surface) timing.surface_ms = ms(surface_s), timing.drawn_wall_ms = ms(drawn_wall_s);
+        if (character.surface) {
+            timing.surface_ms = ms(surface_s);
+            timing.drawn_wall_ms = ms(drawn_wall_s);
+        }
     }
     return timings;
 }

@@ -150,9 +150,12 @@ void project_step(const StepLoops& loops, double (*lap_clock)(), std::vector<dou
         before = now;
     };
     for (int iteration = 0; iteration < paper_iterations; ++iteration) {
-        loops.bind(), lap(bind_laps_s);
-        loops.stretch(), lap(stretch_laps_s);
-        loops.volume(), lap(volume_laps_s);
+        loops.bind();
+        lap(bind_laps_s);
+        loops.stretch();
+        lap(stretch_laps_s);
+        loops.volume();
+        lap(volume_laps_s);
     }
 }
 

@@ -302,8 +302,11 @@ ValueByPose by_pose(const CsvTable& rows, const std::string& column)
 double share_over_poses(const ValueByPose& errors, const ValueByPose& of_lbs)
 {
     std::vector<double> own, lbs;
-    for (const auto& [pose, error] : errors)
-        if (of_lbs.contains(pose)) own.push_back(error), lbs.push_back(of_lbs.at(pose));
+    for (const auto& [pose, error] : errors) {
+        if (!of_lbs.contains(pose)) continue;
+        own.push_back(error);
+        lbs.push_back(of_lbs.at(pose));
+    }
     return analysis::share(own, lbs);
 }
 
