@@ -1,3 +1,8 @@
+// The rule by which a claim is judged: judge() of verdict.hpp and its steps, in the order in which they are taken. The
+// measurements of a claim are grouped into cases, each case is compared with its threshold, cases in which the control
+// does not fail are excluded, and the kind of the verdict follows from the share of the cases that hold. The files
+// claims.json and claims.md are written by claims_report.cpp.
+
 #include "analysis/verdicts/verdict.hpp"
 
 #include <algorithm>
@@ -17,12 +22,13 @@ using Values = std::vector<const Measurement*>;
 
 Values selected(const Selection& selection, const CaseKey& key, const std::vector<Measurement>& measured)
 {
-    Values found;
+    Values values;
     for (const Measurement& measurement : measured)
-        if (is_selected(selection, key, measurement)) found.push_back(&measurement);
-    return found;
+        if (is_selected(selection, key, measurement)) values.push_back(&measurement);
+    return values;
 }
 
+// The case that a measurement belongs to. Only the claim's case_fields are set.
 JudgedCase case_of(const Claim& claim, const Measurement& measured)
 {
     JudgedCase tested;
@@ -54,11 +60,11 @@ Threshold threshold_of(const Selection& selection, const std::string& quantity, 
     const auto applies = [&](const Threshold& threshold) {
         return (threshold.quantity.empty() || threshold.quantity == quantity) && matches(key, threshold.of);
     };
-    const auto found = std::ranges::find_if(selection.thresholds, applies);
-    return found == selection.thresholds.end() ? Threshold{} : *found;
+    const auto threshold = std::ranges::find_if(selection.thresholds, applies);
+    return threshold == selection.thresholds.end() ? Threshold{} : *threshold;
 }
 
-// A censored value decides only where every value that it stands for does.
+// True for a censored value of which some of the values that it stands for are within the threshold and others are not.
 bool is_undecided(const JudgedCase& tested)
 {
     if (tested.limit == Limit::none) return false;
@@ -75,21 +81,24 @@ double mean_of(Mean mean_kind, const Values& values)
     return mean_of(mean_kind, numbers);
 }
 
-Values of_quantity(const Values& values, const std::string& quantity)
+Values with_quantity(const Values& values, const std::string& quantity)
 {
-    Values found;
-    std::ranges::copy_if(values, std::back_inserter(found),
+    Values matching;
+    std::ranges::copy_if(values, std::back_inserter(matching),
                          [&](const Measurement* measurement) { return measurement->quantity == quantity; });
-    return found;
+    return matching;
 }
 
-// One quantity of a case, compared with its threshold.
+// One quantity of a case, compared with its threshold. over: the values by whose mean the number is divided, where the
+// selection names some.
 JudgedCase compared(const Claim& claim, const Selection& selection, JudgedCase tested, const Values& values,
                     const Values& over)
 {
     tested.value = mean_of(claim.mean, values);
     tested.low = tested.high = values.front()->value;
-    bool has_least = false, has_most = false;  // of a mean with a number of each kind nothing is known
+    // A mean over values that are censored from below and others that are censored from above is not known.
+    bool has_least = false;
+    bool has_most = false;
     for (const Measurement* measurement : values) {
         tested.low = std::min({tested.low, measurement->value, measurement->low});
         tested.high = std::max({tested.high, measurement->value, measurement->high});
@@ -115,8 +124,8 @@ JudgedCase compared(const Claim& claim, const Selection& selection, JudgedCase t
     return tested;
 }
 
-// Runs beside the study's own count only in cases of which no other run has values.
-void drop_those_beside(Values& values)
+// Drops the runs beside the study's own. They count only in cases for which no other run has values.
+void drop_runs_beside(Values& values)
 {
     if (std::ranges::any_of(values, [](const Measurement* measurement) { return !measurement->beside; }))
         std::erase_if(values, [](const Measurement* measurement) { return measurement->beside; });
@@ -129,9 +138,9 @@ JudgedCase whole_case(const Claim& claim, const Selection& selection, const Judg
     if (!tested.quantity.empty()) return compared(claim, selection, tested, values, over);
     std::vector<JudgedCase> parts;
     for (const std::string& quantity : selection.quantities) {
-        const Values own = of_quantity(values, quantity);
+        const Values own = with_quantity(values, quantity);
         JudgedCase part{.of = tested.of, .value = not_known, .low = not_known, .high = not_known};
-        if (!own.empty()) part = compared(claim, selection, tested, own, of_quantity(over, quantity));
+        if (!own.empty()) part = compared(claim, selection, tested, own, with_quantity(over, quantity));
         part.quantity = quantity;
         parts.push_back(part);
     }
@@ -144,6 +153,7 @@ JudgedCase whole_case(const Claim& claim, const Selection& selection, const Judg
     return judged_case;
 }
 
+// Counts the cases, and decides whether a control behaves as its role demands.
 void count(Judged& judged)
 {
     judged.held = judged.n = 0;
@@ -151,14 +161,14 @@ void count(Judged& judged)
         judged.n += tested.counts();
         judged.held += tested.counts() && tested.holds;
     }
-    const bool fails = judged.n > 0 && judged.share() <= failing_share,
-               holds = judged.n > 0 && judged.share() >= holding_share;
+    const bool fails = judged.n > 0 && judged.share() <= failing_share;
+    const bool holds = judged.n > 0 && judged.share() >= holding_share;
     judged.behaves = judged.selection.role == Role::negative_control   ? fails
                      : judged.selection.role == Role::positive_control ? holds
                                                                        : true;
 }
 
-// A case in which the negative control does not fail shows nothing.
+// Excludes the cases in which the negative control does not fail, since they show nothing.
 void exclude_unseen(const Judged& control, Judged& own)
 {
     for (JudgedCase& tested : own.cases) {
@@ -172,20 +182,22 @@ void exclude_unseen(const Judged& control, Judged& own)
     count(own);
 }
 
-// The rule of succession, (k + 1) / (n + 2): a control that fails in each of a few cases does not show a share of
-// exactly 0. The control by which cases are excluded fails in all that count.
+// The share of cases that hold without the effect that is claimed: the largest one of the negative controls. It is
+// estimated by the rule of succession, (k + 1) / (n + 2), since a control that fails in each of a few cases does not
+// show a share of exactly 0. The control by which cases are excluded fails in all that count.
 double share_of_controls(const Verdict& verdict)
 {
     if (verdict.claim.no_effect > 0.0) return verdict.claim.no_effect;
     double largest = 0.0;
     for (const Judged& other : verdict.others) {
         if (other.selection.role != Role::negative_control) continue;
-        const bool decides = !verdict.claim.selected_by.empty() && other.selection.name == verdict.claim.selected_by;
-        largest = std::max(largest, decides ? 1.0 / (verdict.own.n + 2.0) : (other.held + 1.0) / (other.n + 2.0));
+        const bool selects = !verdict.claim.selected_by.empty() && other.selection.name == verdict.claim.selected_by;
+        largest = std::max(largest, selects ? 1.0 / (verdict.own.n + 2.0) : (other.held + 1.0) / (other.n + 2.0));
     }
     return largest;
 }
 
+// The interval of the share of cases that hold: the wider one of the binomial interval and the bootstrap over bodies.
 Interval interval_of(const Judged& own)
 {
     std::vector<std::string> bodies;
@@ -195,47 +207,67 @@ Interval interval_of(const Judged& own)
         bodies.push_back(tested.of.body);
         holds.push_back(tested.holds);
     }
-    const Interval binomial = share_interval(own.held, own.n), bootstrap = bootstrap_share_of_groups(bodies, holds);
+    const Interval binomial = share_interval(own.held, own.n);
+    const Interval bootstrap = bootstrap_share_of_groups(bodies, holds);
     return bootstrap.high - bootstrap.low > binomial.high - binomial.low ? bootstrap : binomial;
 }
 
-// Shares by the values of each field that a case has; a value with fewer than two cases says nothing.
+struct CaseCount {
+    int held = 0;   // cases that hold
+    int cases = 0;  // cases that count
+};
+
+// The cases that have each value of a field, such as each body. field: null for the field `quantity`.
+std::map<std::string, CaseCount> counts_by_value(const Judged& own, const CaseKeyField* field)
+{
+    std::map<std::string, CaseCount> counts;
+    for (const JudgedCase& tested : own.cases) {
+        if (!tested.counts() || (field && !field->is_set(tested.of))) continue;
+        CaseCount& count = counts[field ? value_text(*field, tested.of) : tested.quantity];
+        count.held += tested.holds;
+        ++count.cases;
+    }
+    return counts;
+}
+
+// The field by whose values the shares of the cases that hold differ most. A value with fewer than two cases is not
+// compared. The result is empty if no field has two values with different shares.
 std::optional<Difference> largest_difference(const Claim& claim, const Judged& own)
 {
     std::optional<Difference> largest;
     for (const std::string& name : claim.case_fields) {
-        const CaseKeyField* field = case_key_field(name);
-        std::map<std::string, std::array<int, 2>> counts;  // held, all
-        for (const JudgedCase& tested : own.cases) {
-            if (!tested.counts() || (field && !field->is_set(tested.of))) continue;
-            auto& [held, all] = counts[field ? value_text(*field, tested.of) : tested.quantity];
-            held += tested.holds;
-            ++all;
+        Difference difference{.field = name, .least = 2.0, .most = -1.0};
+        for (const auto& [value, count] : counts_by_value(own, case_key_field(name))) {
+            if (count.cases < 2) continue;
+            const double share = double(count.held) / count.cases;
+            if (share < difference.least) {
+                difference.least = share;
+                difference.least_at = value;
+            }
+            if (share > difference.most) {
+                difference.most = share;
+                difference.most_at = value;
+            }
         }
-        Difference found{.field = name, .least = 2.0, .most = -1.0};
-        for (const auto& [value, of] : counts) {
-            if (of[1] < 2) continue;
-            const double share = double(of[0]) / of[1];
-            if (share < found.least) found.least = share, found.least_at = value;
-            if (share > found.most) found.most = share, found.most_at = value;
-        }
-        if (found.least_at != found.most_at && (!largest || found.most - found.least > largest->most - largest->least))
-            largest = found;
+        if (difference.least_at != difference.most_at &&
+            (!largest || difference.most - difference.least > largest->most - largest->least))
+            largest = difference;
     }
     return largest;
 }
 
-// The claim in each order and precision in which its values are recorded, where its own are named.
+// The claim judged in every other order and precision of projection that its values are recorded in. There are none
+// unless the claim names an order or a precision of its own.
 std::vector<Judged> readings_of(const Claim& claim, const std::vector<Measurement>& measured)
 {
     std::vector<Judged> readings;
     if (claim.own.of.order.empty() && claim.own.of.precision.empty()) return readings;
     Selection any = claim.own;
     any.of.order = any.of.precision = "";
-    std::set<std::pair<std::string, std::string>> found;
+    std::set<std::pair<std::string, std::string>> recorded;  // order, precision
     for (const Measurement& measurement : measured)
-        if (is_selected(any, any.of, measurement)) found.insert({measurement.of.order, measurement.of.precision});
-    for (const auto& [order, precision] : found) {
+        if (is_selected(any, any.of, measurement)) recorded.insert({measurement.of.order, measurement.of.precision});
+    for (const auto& [order, precision] : recorded) {
         any.of.order = order;
         any.of.precision = precision;
         any.name = order.empty() ? precision : order + " " + precision;
@@ -267,16 +299,16 @@ VerdictKind kind_of(const Verdict& verdict)
 void decide(Verdict& verdict)
 {
     const Claim& claim = verdict.claim;
-    const auto unseen = std::ranges::find(verdict.others, claim.selected_by, [](const Judged& judged_selection) {
+    const auto control = std::ranges::find(verdict.others, claim.selected_by, [](const Judged& judged_selection) {
         return judged_selection.selection.name;
     });
     if (!claim.selected_by.empty()) {
-        exclude_unseen(*unseen, verdict.own);
-        unseen->behaves =
-            unseen->n - unseen->held >= least_cases;  // it selects the cases, so that its share says nothing
-        for (Judged& reading : verdict.readings) exclude_unseen(*unseen, reading);
+        exclude_unseen(*control, verdict.own);
+        // The control selects the cases, so that its share shows nothing. It has to fail in enough of them.
+        control->behaves = control->n - control->held >= least_cases;
+        for (Judged& reading : verdict.readings) exclude_unseen(*control, reading);
         for (Judged& other : verdict.others)
-            if (other.selection.role == Role::comparison) exclude_unseen(*unseen, other);
+            if (other.selection.role == Role::comparison) exclude_unseen(*control, other);
     }
     verdict.q = share_of_controls(verdict);
     if (verdict.own.n > 0) verdict.by_chance = binomial_tail(verdict.own.held, verdict.own.n, verdict.q);
@@ -291,7 +323,7 @@ void judge_cases(Verdict& verdict)
     if (verdict.kind == VerdictKind::mixed) verdict.differs = largest_difference(verdict.claim, verdict.own);
 }
 
-// One number, judged by its range.
+// Judges one number by its range.
 void judge_single(Verdict& verdict)
 {
     if (verdict.own.cases.size() != 1) {
@@ -314,7 +346,8 @@ void judge_print(const std::vector<PrintedValue>& values, Verdict& verdict)
     verdict.kind = consistent ? VerdictKind::holds : VerdictKind::inconsistent_in_print;
 }
 
-// otherwise: the verdict whose control takes the place of one without cases; null: none does.
+// Judges the measured values by the claim's rule. otherwise: a verdict whose controls take the place of controls that
+// have no cases; null if there is none.
 void judge_values(const std::vector<Measurement>& measured, const Verdict* otherwise, Verdict& verdict)
 {
     const Claim& claim = verdict.claim;
@@ -336,19 +369,23 @@ void judge_values(const std::vector<Measurement>& measured, const Verdict* other
         judge_cases(verdict);
 }
 
-// The claim's values, and the held-out ones.
-std::pair<std::vector<Measurement>, std::vector<Measurement>> measurements_of(const Claim& claim,
-                                                                              const Records& records)
+struct SplitMeasurements {
+    std::vector<Measurement> measured;  // by which the claim is judged
+    std::vector<Measurement> held_out;  // of the cases that Claim::held_out names
+};
+
+SplitMeasurements split_measurements(const Claim& claim, const Records& records)
 {
-    std::vector<Measurement> measurements = records.measurements, measured, apart;
+    std::vector<Measurement> measurements = records.measurements;
     for (const CaseRecord& record : records.cases)
         std::ranges::move(frame_measurements(record), std::back_inserter(measurements));
-    std::ranges::partition_copy(
-        measurements, std::back_inserter(apart), std::back_inserter(measured), [&](const Measurement& measurement) {
-            return std::ranges::any_of(claim.held_out,
-                                       [&](const CaseKey& key) { return matches(measurement.of, key); });
-        });
-    return {measured, apart};
+    const auto is_held_out = [&](const Measurement& measurement) {
+        return std::ranges::any_of(claim.held_out, [&](const CaseKey& key) { return matches(measurement.of, key); });
+    };
+    SplitMeasurements split;
+    std::ranges::partition_copy(measurements, std::back_inserter(split.held_out), std::back_inserter(split.measured),
+                                is_held_out);
+    return split;
 }
 
 void judge_measured(const Records& records, Verdict& verdict)
@@ -357,11 +394,11 @@ void judge_measured(const Records& records, Verdict& verdict)
     verdict.left_out = records.left_out;
     verdict.missing = missing_from(records);
     if (!verdict.missing.empty()) return;
-    const auto [measured, apart] = measurements_of(claim, records);
-    judge_values(measured, nullptr, verdict);
-    if (selected(claim.own, claim.own.of, apart).empty()) return;
+    const SplitMeasurements split = split_measurements(claim, records);
+    judge_values(split.measured, nullptr, verdict);
+    if (selected(claim.own, claim.own.of, split.held_out).empty()) return;
     Verdict held_out{.claim = claim};
-    judge_values(apart, &verdict, held_out);
+    judge_values(split.held_out, &verdict, held_out);
     verdict.held_out.push_back(std::move(held_out));
 }
 
@@ -369,13 +406,14 @@ void judge_measured(const Records& records, Verdict& verdict)
 
 Judged judged(const Claim& claim, const Selection& selection, const std::vector<Measurement>& measured)
 {
-    const Values own = selected(selection, selection.of, measured),
-                 over = selected(selection, selection.over, measured);
+    const Values own = selected(selection, selection.of, measured);
+    const Values over = selected(selection, selection.over, measured);
     std::vector<JudgedCase> cases;
-    std::vector<Values> values, base;
+    std::vector<Values> values;       // of each case
+    std::vector<Values> over_values;  // of each case: those by which its values are divided
     const auto place_of = [&](const JudgedCase& tested) {
-        const auto found = std::ranges::find_if(cases, [&](const JudgedCase& other) { return other.is_same(tested); });
-        return static_cast<std::size_t>(found - cases.begin());
+        const auto same = std::ranges::find_if(cases, [&](const JudgedCase& other) { return other.is_same(tested); });
+        return static_cast<std::size_t>(same - cases.begin());
     };
     for (const Measurement* measurement : own) {
         JudgedCase tested = case_of(claim, *measurement);
@@ -386,15 +424,15 @@ Judged judged(const Claim& claim, const Selection& selection, const std::vector<
         }
         values[place].push_back(measurement);
     }
-    base.resize(cases.size());
+    over_values.resize(cases.size());
     for (const Measurement* measurement : over)
         if (const std::size_t place = place_of(case_of(claim, *measurement)); place < cases.size())
-            base[place].push_back(measurement);
-    for (auto* lists : {&values, &base})
-        for (Values& of_case : *lists) drop_those_beside(of_case);
+            over_values[place].push_back(measurement);
+    for (auto* lists : {&values, &over_values})
+        for (Values& values_of_case : *lists) drop_runs_beside(values_of_case);
     Judged result{.selection = selection};
     for (std::size_t i = 0; i < cases.size(); ++i)
-        result.cases.push_back(whole_case(claim, selection, cases[i], values[i], base[i]));
+        result.cases.push_back(whole_case(claim, selection, cases[i], values[i], over_values[i]));
     count(result);
     return result;
 }
@@ -414,7 +452,7 @@ std::vector<std::string> missing_from(const Records& records)
 
 std::vector<Measurement> own_measurements(const Claim& claim, const Records& records)
 {
-    std::vector<Measurement> measured = measurements_of(claim, records).first;
+    std::vector<Measurement> measured = split_measurements(claim, records).measured;
     const auto reads = [](const Selection& selection, const Measurement& measurement) {
         return is_selected(selection, selection.of, measurement) ||
                (selection.over != CaseKey{} && is_selected(selection, selection.over, measurement));
