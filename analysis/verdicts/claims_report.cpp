@@ -1,3 +1,7 @@
+// Writes verdicts as claims.json, as claims.md and as the table on the terminal: the functions claims_json,
+// claims_markdown and claims_table of verdict.hpp. The first half of this file writes the members of claims.json, one
+// function per struct of verdict.hpp; the second half writes the texts of the two tables.
+
 #include "analysis/verdicts/verdict.hpp"
 
 #include "analysis/records/report_table.hpp"
@@ -26,9 +30,9 @@ json finite(double value)
     return std::isfinite(value) ? json(value) : json(nullptr);
 }
 
-json to_json_of(const LeftOut& out)
+json to_json_of(const LeftOut& left_out)
 {
-    return {{"scene", out.scene}, {"reason", out.reason}};
+    return {{"scene", left_out.scene}, {"reason", left_out.reason}};
 }
 
 json to_json_of(const Threshold& threshold)
@@ -40,9 +44,10 @@ json to_json_of(const Threshold& threshold)
     return object;
 }
 
-json tested_value(const CaseKey& of, const std::string& quantity, double value, const Threshold& threshold, bool holds)
+// A value with its threshold, and whether it holds. key: the case that the value belongs to.
+json tested_value(const CaseKey& key, const std::string& quantity, double value, const Threshold& threshold, bool holds)
 {
-    json object = to_json_of(of);
+    json object = to_json_of(key);
     object.update({{"value", finite(value)},
                    {"threshold_low", finite(threshold.low)},
                    {"threshold_high", finite(threshold.high)},
@@ -95,14 +100,14 @@ json text_or_null(const std::string& text)
 json to_json_of(const Judged& judged);
 
 template <typename List>
-json list_of(const List& all)
+json list_of(const List& entries)
 {
     json list = json::array();
-    for (const auto& one : all) list.push_back(to_json_of(one));
+    for (const auto& entry : entries) list.push_back(to_json_of(entry));
     return list;
 }
 
-// The numbers of the cases that count: least, median, most.
+// The finite numbers of the cases that count, in increasing order.
 std::vector<double> numbers_of(const Judged& judged)
 {
     std::vector<double> numbers;
@@ -112,6 +117,7 @@ std::vector<double> numbers_of(const Judged& judged)
     return numbers;
 }
 
+// How many cases are excluded for each reason.
 json excluded_of(const Judged& judged)
 {
     json counts = json::object();
@@ -120,16 +126,17 @@ json excluded_of(const Judged& judged)
     return counts;
 }
 
+// The counts and the range that claims and controls have in common.
 json facts_of(const Judged& judged)
 {
     const std::vector<double> numbers = numbers_of(judged);
-    const bool none = numbers.empty();
+    const bool has_numbers = !numbers.empty();
     return {{"held", judged.held},
             {"n", judged.n},
             {"share", finite(judged.share())},
-            {"least", none ? json(nullptr) : json(numbers.front())},
-            {"median", none ? json(nullptr) : json(median(numbers))},
-            {"most", none ? json(nullptr) : json(numbers.back())},
+            {"least", has_numbers ? json(numbers.front()) : json(nullptr)},
+            {"median", has_numbers ? json(median(numbers)) : json(nullptr)},
+            {"most", has_numbers ? json(numbers.back()) : json(nullptr)},
             {"excluded_cases", excluded_of(judged)}};
 }
 
@@ -158,49 +165,56 @@ json difference_of(const Verdict& verdict)
             {"most", difference.most}};
 }
 
+// What the claim states and asks, as it was fixed beforehand.
+json stated_facts(const Claim& claim)
+{
+    return {{"id", claim.id},
+            {"short", claim.short_name},
+            {"asked", text_or_null(asked_text(claim))},
+            {"statement", claim.statement},
+            {"place", claim.place},
+            {"study", claim.study},
+            {"rule", name_of(claim.rule)},
+            {"reason", claim.reason},
+            {"quantities", claim.own.quantities},
+            {"of", to_json_of(claim.own.of)},
+            {"over", to_json_of(claim.own.over)},
+            {"thresholds", list_of(claim.own.thresholds)},
+            {"source", claim.source},
+            {"range", claim.range},
+            {"case_fields", claim.case_fields},
+            {"fixed_at", claim.fixed_at},
+            {"thresholds_fixed_at", claim.thresholds_fixed_at.empty() ? claim.fixed_at : claim.thresholds_fixed_at}};
+}
+
+// The member of "claims" for one verdict.
 json claim_object(const Verdict& verdict)
 {
     const Claim& claim = verdict.claim;
-    json controls = json::array(), compared = json::array();
+    json controls = json::array();
+    json compared = json::array();
     for (const Judged& other : verdict.others)
         (other.selection.role == Role::comparison ? compared : controls).push_back(to_json_of(other));
     json object = facts_of(verdict.own);
-    object.update(
-        {{"id", claim.id},
-         {"short", claim.short_name},
-         {"measured", text_or_null(measured_text(verdict))},
-         {"asked", text_or_null(asked_text(claim))},
-         {"statement", claim.statement},
-         {"place", claim.place},
-         {"study", claim.study},
-         {"rule", name_of(claim.rule)},
-         {"reason", claim.reason},
-         {"verdict", name_of(verdict.kind)},
-         {"why_inconclusive", name_of(verdict.inconclusive)},
-         {"quantities", claim.own.quantities},
-         {"of", to_json_of(claim.own.of)},
-         {"over", to_json_of(claim.own.over)},
-         {"thresholds", list_of(claim.own.thresholds)},
-         {"source", claim.source},
-         {"range", claim.range},
-         {"case_fields", claim.case_fields},
-         {"interval_low", finite(verdict.interval.low)},
-         {"interval_high", finite(verdict.interval.high)},
-         {"chance", finite(verdict.by_chance)},
-         {"q", finite(verdict.q)},
-         {"differs", difference_of(verdict)},
-         {"fixed_at", claim.fixed_at},
-         {"thresholds_fixed_at", claim.thresholds_fixed_at.empty() ? claim.fixed_at : claim.thresholds_fixed_at},
-         {"without_body", list_of(verdict.sensitivity.without_body)},
-         {"threshold_ranges", list_of(verdict.sensitivity.ranges)},
-         {"held_out", verdict.held_out.empty() ? json(nullptr) : claim_object(verdict.held_out.front())},
-         {"cases", verdict.printed.empty() ? list_of(verdict.own.cases) : list_of(verdict.printed)},
-         {"controls", controls},
-         {"compared", compared},
-         {"readings", list_of(verdict.readings)},
-         {"excluded_scenes", list_of(verdict.left_out)},
-         {"missing", verdict.missing},
-         {"runs", verdict.runs}});
+    object.update(stated_facts(claim));
+    object.update({{"measured", text_or_null(measured_text(verdict))},
+                   {"verdict", name_of(verdict.kind)},
+                   {"why_inconclusive", name_of(verdict.inconclusive)},
+                   {"interval_low", finite(verdict.interval.low)},
+                   {"interval_high", finite(verdict.interval.high)},
+                   {"chance", finite(verdict.by_chance)},
+                   {"q", finite(verdict.q)},
+                   {"differs", difference_of(verdict)},
+                   {"without_body", list_of(verdict.sensitivity.without_body)},
+                   {"threshold_ranges", list_of(verdict.sensitivity.ranges)},
+                   {"held_out", verdict.held_out.empty() ? json(nullptr) : claim_object(verdict.held_out.front())},
+                   {"cases", verdict.printed.empty() ? list_of(verdict.own.cases) : list_of(verdict.printed)},
+                   {"controls", controls},
+                   {"compared", compared},
+                   {"readings", list_of(verdict.readings)},
+                   {"excluded_scenes", list_of(verdict.left_out)},
+                   {"missing", verdict.missing},
+                   {"runs", verdict.runs}});
     if (!verdict.printed.empty()) {
         object["n"] = verdict.printed.size();
         object["held"] = std::ranges::count_if(verdict.printed, &PrintedValue::is_consistent);
@@ -220,25 +234,28 @@ json quantities_of(const std::vector<Verdict>& verdicts)
 
 const char* colour_of(VerdictKind kind)
 {
-    constexpr const char *green = "\033[32m", *yellow = "\033[33m", *red = "\033[31m", *purple = "\033[35m",
-                         *grey = "\033[90m";
+    constexpr const char* green = "\033[32m";
+    constexpr const char* yellow = "\033[33m";
+    constexpr const char* red = "\033[31m";
+    constexpr const char* purple = "\033[35m";
+    constexpr const char* grey = "\033[90m";
     // in the order of the enum
     constexpr const char* colours[] = {green, red, yellow, yellow, grey, grey, grey, purple, red};
     return colours[static_cast<int>(kind)];
 }
 
-// As people read it: not shown, cannot be tested.
-std::string spoken(VerdictKind kind, bool of_many)
+// The kind in words, such as "not shown" or "cannot be tested". is_plural: the subject is more than one claim.
+std::string kind_in_words(VerdictKind kind, bool is_plural)
 {
     if (kind == VerdictKind::untestable) return "cannot be tested";
-    if (of_many && kind == VerdictKind::holds) return "hold";
-    if (of_many && kind == VerdictKind::fails) return "fail";
+    if (is_plural && kind == VerdictKind::holds) return "hold";
+    if (is_plural && kind == VerdictKind::fails) return "fail";
     std::string name = name_of(kind);
     std::ranges::replace(name, '_', ' ');
     return name;
 }
 
-// In a word or two: NOT SHOWN, INCONSISTENT, UNTESTABLE.
+// The kind in one or two words for the terminal, such as NOT SHOWN, INCONSISTENT or UNTESTABLE.
 std::string in_capitals(VerdictKind kind)
 {
     std::string name = kind == VerdictKind::inconsistent_in_print ? "inconsistent" : name_of(kind);
@@ -261,7 +278,7 @@ std::string cut(const std::string& text, std::size_t width)
     return begin + "\u2026";
 }
 
-// A censored number with its sign: > 1,000.
+// A number; a censored one has its sign before it, as in "> 1000".
 std::string number_text(const JudgedCase& tested)
 {
     static constexpr std::array signs = {"", ">= ", "<= ", "> "};
@@ -269,7 +286,8 @@ std::string number_text(const JudgedCase& tested)
     return signs[static_cast<std::size_t>(tested.limit)] + fmt::format("{:.{}g}", tested.value, is_long ? 4 : 3);
 }
 
-// The cases that count, or their parts, that have a number of this quantity, the least first.
+// The cases that count and have a number of this quantity, in increasing order. A case with several quantities is
+// represented by its part for this one.
 std::vector<JudgedCase> cases_with(const Judged& judged, const std::string& quantity)
 {
     std::vector<JudgedCase> cases;
@@ -290,13 +308,15 @@ std::string numbers_text(const Verdict& verdict)
     for (const std::string& quantity : verdict.claim.own.quantities) {
         const std::vector<JudgedCase> cases = cases_with(verdict.own, quantity);
         if (cases.empty()) continue;
-        const std::string unit = cases.front().unit, shown = unit.empty() || unit == "1" ? "" : " " + unit;
-        const std::string least = number_text(cases.front()), most = number_text(cases.back());
+        const std::string unit = cases.front().unit;
+        const std::string unit_text = unit.empty() || unit == "1" ? "" : " " + unit;
+        const std::string least = number_text(cases.front());
+        const std::string most = number_text(cases.back());
         std::vector<std::string> thresholds;
         for (const Threshold& threshold : verdict.claim.own.thresholds)
             if (threshold.quantity.empty() || threshold.quantity == quantity)
                 thresholds.push_back(threshold_text(threshold));
-        texts.push_back(fmt::format("{}: {}{}{}{}", quantity, least == most ? least : least + " to " + most, shown,
+        texts.push_back(fmt::format("{}: {}{}{}{}", quantity, least == most ? least : least + " to " + most, unit_text,
                                     thresholds.empty() ? "" : "; threshold ", fmt::join(thresholds, ", ")));
     }
     return fmt::format("{}", fmt::join(texts, "; "));
@@ -325,7 +345,7 @@ std::vector<std::string> closing_texts(const std::vector<Verdict>& verdicts)
 {
     std::map<std::array<std::string, 2>, std::set<std::string>> absent;
     for (const Verdict& verdict : verdicts) {
-        for (const LeftOut& out : verdict.left_out) absent[{"excluded from", out.reason}].insert(verdict.claim.id);
+        for (const LeftOut& scene : verdict.left_out) absent[{"excluded from", scene.reason}].insert(verdict.claim.id);
         for (const std::string& name : verdict.missing) absent[{"no record for", name}].insert(verdict.claim.id);
     }
     std::vector<std::string> texts, counts;
@@ -333,7 +353,8 @@ std::vector<std::string> closing_texts(const std::vector<Verdict>& verdicts)
         texts.push_back(fmt::format("{} {}: {}", what[0], fmt::join(claims, ", "), what[1]));
     for (int k = 0; k <= static_cast<int>(VerdictKind::not_computable); ++k) {
         const auto count = std::ranges::count(verdicts, static_cast<VerdictKind>(k), &Verdict::kind);
-        if (count > 0) counts.push_back(fmt::format("{} {}", count, spoken(static_cast<VerdictKind>(k), count > 1)));
+        if (count > 0)
+            counts.push_back(fmt::format("{} {}", count, kind_in_words(static_cast<VerdictKind>(k), count > 1)));
     }
     texts.push_back(
         fmt::format("{} claim{}: {}", verdicts.size(), verdicts.size() == 1 ? "" : "s", fmt::join(counts, ", ")));
@@ -356,19 +377,19 @@ std::string claims_markdown(const std::vector<Verdict>& verdicts)
         "study |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Verdict& verdict : verdicts) {
-        const bool none = verdict.own.n == 0 || verdict.claim.rule != ClaimRule::cases;
-        const auto known = [&](double value) {
-            return none || !std::isfinite(value) ? std::string() : fmt::format("{:.3g}", value);
+        const bool has_cases = verdict.own.n > 0 && verdict.claim.rule == ClaimRule::cases;
+        const auto cell_of = [&](double value) {
+            return has_cases && std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string();
         };
         const std::string interval =
-            none ? "" : fmt::format("[{:.3g}, {:.3g}]", verdict.interval.low, verdict.interval.high);
+            has_cases ? fmt::format("[{:.3g}, {:.3g}]", verdict.interval.low, verdict.interval.high) : "";
         const json object = claim_object(verdict);
         const bool is_bounded = !verdict.claim.own.thresholds.empty() || !verdict.printed.empty();
         const std::vector<std::string> cells = {
-            verdict.claim.id,         verdict.claim.statement,    name_of(verdict.kind),
-            measured_text(verdict),   asked_text(verdict.claim),  is_bounded ? object["held"].dump() : "",
-            object["n"].dump(),       known(verdict.own.share()), interval,
-            known(verdict.by_chance), numbers_text(verdict),      reason_text(verdict),
+            verdict.claim.id,           verdict.claim.statement,      name_of(verdict.kind),
+            measured_text(verdict),     asked_text(verdict.claim),    is_bounded ? object["held"].dump() : "",
+            object["n"].dump(),         cell_of(verdict.own.share()), interval,
+            cell_of(verdict.by_chance), numbers_text(verdict),        reason_text(verdict),
             verdict.claim.study};
         for (const std::string& cell : cells) text += fmt::format("| {} ", markdown_cell(cell));
         text += "|\n";
@@ -391,24 +412,29 @@ std::string claims_table(const std::vector<Verdict>& verdicts, std::size_t width
     const auto widest = [&](std::string Row::*text) {
         return std::ranges::max(rows | std::views::transform([&](const Row& row) { return characters(row.*text); }));
     };
-    const std::size_t whole = std::max<std::size_t>(width, 60), gap = 2, id_width = widest(&Row::id),
-                      verdict_width = widest(&Row::verdict);
-    const std::size_t further_width = std::min(widest(&Row::further), whole / 4),
-                      gaps = (further_width > 0 ? 4 : 3) * gap;
-    const std::size_t rest = whole - id_width - verdict_width - further_width - gaps;
-    const std::size_t claim_width = std::min(widest(&Row::claim), rest - std::min(widest(&Row::measured), rest / 2));
+    constexpr std::size_t gap = 2;  // blanks between two columns
+    const std::size_t table_width = std::max<std::size_t>(width, 60);
+    const std::size_t id_width = widest(&Row::id);
+    const std::size_t verdict_width = widest(&Row::verdict);
+    const std::size_t further_width = std::min(widest(&Row::further), table_width / 4);
+    const std::size_t gaps = (further_width > 0 ? 4 : 3) * gap;
+    // The columns of the claim and of what was measured share what the others leave.
+    const std::size_t shared_width = table_width - id_width - verdict_width - further_width - gaps;
+    const std::size_t claim_width =
+        std::min(widest(&Row::claim), shared_width - std::min(widest(&Row::measured), shared_width / 2));
+    const std::size_t measured_width = shared_width - claim_width;
     std::string table;
     for (const Row& row : rows) {
         std::vector<TextColumn> columns = {
             {row.id, id_width},
             {cut(row.claim, claim_width), claim_width},
             {row.verdict, verdict_width, row.colour},
-            {cut(row.measured, rest - claim_width), std::min(widest(&Row::measured), rest - claim_width)}};
+            {cut(row.measured, measured_width), std::min(widest(&Row::measured), measured_width)}};
         if (further_width > 0) columns.push_back({cut(row.further, further_width), further_width});
         table += side_by_side(columns);
     }
     for (const std::string& text : closing_texts(verdicts))
-        for (const std::string& line : wrapped(text, whole)) table += line + "\n";
+        for (const std::string& line : wrapped(text, table_width)) table += line + "\n";
     return table;
 }
 
