@@ -1,19 +1,19 @@
+// Reads the rules of a check from TOML: parse_check_rules of check.hpp.
+
 #include "analysis/check/check.hpp"
 
-#include "analysis/records/tables.hpp"
 #include "analysis/records/toml_keys.hpp"
 #include "pbs/geometry/input_error.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
+#include <cmath>
 
 namespace analysis {
 namespace {
 
 using Names = std::vector<std::string>;
 
+// Refuses the key if `known` does not contain the name. rule: what is wrong with the name.
 void require_known(const TomlKeys& keys, const char* key, const std::string& name, const Names& known,
                    const std::string& rule)
 {
@@ -27,6 +27,7 @@ void require_metric(const TomlKeys& keys, const std::string& metric, const Names
     require_known(keys, "metric", metric, metrics, "unknown metric");
 }
 
+// before: the names of the scenes that were read before this one.
 CheckScene read_scene(const toml::table& table, const std::string& file, const Names& before)
 {
     TomlKeys keys(table, file, "scene of a check");
@@ -90,6 +91,7 @@ CheckTolerance read_tolerance(const toml::table& table, const std::string& file,
     return tolerance;
 }
 
+// Refuses entries that have the same name.
 template <typename Entry>
 void require_once(const std::vector<Entry>& entries, std::string Entry::*name, const char* key, const std::string& file)
 {
@@ -97,82 +99,6 @@ void require_once(const std::vector<Entry>& entries, std::string Entry::*name, c
         for (std::size_t j = 0; j < i; ++j)
             if (entries[i].*name == entries[j].*name)
                 throw pbs::InputError(file, entries[i].line, key, entries[i].*name, "expected once");
-}
-
-double compared(const FrameBound& bound, const FrameValues& values)
-{
-    return bound.is_absolute ? std::abs(bound.of(values)) : bound.of(values);
-}
-
-bool holds(const FrameBound& bound, double value)
-{
-    return bound.is_upper ? value <= *bound.value : value >= *bound.value;
-}
-
-bool is_worse(const FrameBound& bound, double value, double than)
-{
-    if (std::isnan(than)) return false;
-    return std::isnan(value) || (bound.is_upper ? value > than : value < than);
-}
-
-// The worst frame of a bound, and the number of frames outside.
-struct JudgedFrames {
-    std::size_t worst = 0, outside = 0;
-};
-
-JudgedFrames judged_frames(const FrameBound& bound, const std::vector<MeasuredFrame>& frames)
-{
-    JudgedFrames result;
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        const double value = compared(bound, frames[i].values);
-        result.outside += !holds(bound, value);
-        if (is_worse(bound, value, compared(bound, frames[result.worst].values))) result.worst = i;
-    }
-    return result;
-}
-
-CheckCase judged(const std::string& suite, const FrameBound& bound, const std::vector<MeasuredFrame>& frames)
-{
-    const auto [worst, outside] = judged_frames(bound, frames);
-    const double value = compared(bound, frames[worst].values);
-    CheckCase check{suite,
-                    fmt::format("{} {:g}", bound.option, *bound.value),
-                    outside > 0 ? CheckState::failed : CheckState::held,
-                    "",
-                    static_cast<int>(worst),
-                    value,
-                    "",
-                    0};
-    check.message = fmt::format("frame {}: {} = {:.6g}, expected at {} {:g}", frames[worst].name, bound.metric, value,
-                                bound.is_upper ? "most" : "least", *bound.value);
-    if (outside > 1) check.message += fmt::format(" ({} of {} frames outside)", outside, frames.size());
-    return check;
-}
-
-std::string counted(std::size_t frames)
-{
-    return fmt::format("{} frame{}", frames, frames == 1 ? "" : "s");
-}
-
-// "14 of 18 frames beyond 0.5 %, worst -8.64 % in frame 17"
-std::string judged_text(const FrameBound& bound, const std::vector<MeasuredFrame>& frames)
-{
-    const auto [worst, outside] = judged_frames(bound, frames);
-    const std::string name = bound.is_absolute ? "" : bound.metric + ": ";
-    const std::string count =
-        outside > 0 ? fmt::format("{} of {} {}", outside, counted(frames.size()), bound.is_upper ? "beyond" : "below")
-                    : fmt::format("{} within", counted(frames.size()));
-    return fmt::format("{}{} {:g}{}, worst {:.3g}{} in frame {}", name, count, *bound.value, bound.unit,
-                       bound.of(frames[worst].values), bound.unit, frames[worst].name);
-}
-
-std::string volume_range(const std::vector<MeasuredFrame>& frames)
-{
-    const auto change_pct = [](const MeasuredFrame& frame) { return frame.values.metrics.volume_change_pct; };
-    const auto [low, high] = std::ranges::minmax_element(frames, {}, change_pct);
-    if (low == high) return fmt::format("measured: {}, volume {:.3g} %", counted(frames.size()), change_pct(*low));
-    return fmt::format("measured: {}, volume {:.3g} % in frame {} to {:.3g} % in frame {}", counted(frames.size()),
-                       change_pct(*low), low->name, change_pct(*high), high->name);
 }
 
 }  // namespace
@@ -200,91 +126,6 @@ CheckRules parse_check_rules(const std::string& text, const std::string& file, c
     require_once(rules.bounds, &CheckBound::name, "name", file);
     require_once(rules.tolerances, &CheckTolerance::metric, "metric", file);
     return rules;
-}
-
-std::vector<FrameBound> known_frame_bounds()
-{
-    using Values = const FrameValues&;
-    constexpr double any = std::numeric_limits<double>::lowest();
-    return {{"--max-volume-change", "|volume_change_pct|", "bound on |volume_change_pct| [%]", true, 0.0,
-             [](Values f) { return f.metrics.volume_change_pct; }, " %", true},
-            {"--max-volume-abs-change", "volume_abs_change_pct", "bound on volume_abs_change_pct [%]", true, 0.0,
-             [](Values f) { return f.metrics.volume_abs_change_pct; }, " %"},
-            {"--max-inverted", "inverted_tets", "bound on inverted_tets", true, 0.0,
-             [](Values f) { return static_cast<double>(f.metrics.inverted_tets); }, "", false, Measured::tets},
-            {"--min-j", "j_min", "bound on the smallest V / V0 of a tet", false, any,
-             [](Values f) { return f.metrics.j_min; }, "", false, Measured::tets},
-            {"--max-j", "j_max", "bound on the largest V / V0 of a tet", true, any, [](Values f) { return f.j_max; },
-             "", false, Measured::tets},
-            {"--max-edge-strain", "edge_strain_max", "bound on the largest |l / l0 - 1| of an edge", true, 0.0,
-             [](Values f) { return f.edge_strain_max; }},
-            {"--max-stretch-rms", "stretch_rms", "bound on the root mean square of l / l0 - 1 over the edges", true,
-             0.0, [](Values f) { return f.metrics.stretch_rms; }, "", false, Measured::tets},
-            {"--max-self-intersections", "self_intersections", "bound on the pairs of triangles of a surface that meet",
-             true, 0.0, [](Values f) { return f.self_intersections; }, "", false, Measured::surface}};
-}
-
-void require_meaningful(const FrameBound& bound, Measured measured)
-{
-    if (!bound.value) return;
-    if (bound.applies_to != Measured::both && bound.applies_to != measured)
-        throw pbs::InputError("", 0, bound.option, number_text(*bound.value),
-                              measured == Measured::surface
-                                  ? "a surface has no tets: leave this bound out, or measure a tet mesh"
-                                  : "is of surfaces: leave this bound out for a tet mesh");
-    if (std::isfinite(*bound.value) && *bound.value >= bound.lowest) return;
-    throw pbs::InputError("", 0, bound.option, number_text(*bound.value),
-                          bound.lowest == 0.0 ? "expected a finite number >= 0" : "expected a finite number");
-}
-
-std::string broken_text(const FrameBound& bound, const FrameValues& values)
-{
-    if (!bound.value || holds(bound, compared(bound, values))) return "";
-    return fmt::format("{} = {:.6g} {} {:g}", bound.metric, compared(bound, values), bound.is_upper ? '>' : '<',
-                       *bound.value);
-}
-
-std::string frame_summary(const std::vector<FrameBound>& bounds, const std::vector<MeasuredFrame>& frames,
-                          std::size_t refused)
-{
-    std::vector<std::string> failed, held;
-    for (const FrameBound& bound : bounds)
-        if (bound.value && !frames.empty())
-            (judged_frames(bound, frames).outside > 0 ? failed : held).push_back(judged_text(bound, frames));
-    std::string text;
-    if (!failed.empty())
-        text = fmt::format("fails: {}", fmt::join(failed, "; "));
-    else if (!held.empty())
-        text = fmt::format("holds: {}", fmt::join(held, "; "));
-    else if (!frames.empty())
-        text = volume_range(frames);
-    if (refused == 0) return text;
-    const std::string missing =
-        fmt::format("{} of {} could not be measured", refused, counted(refused + frames.size()));
-    return failed.empty() ? fmt::format("refused: {}{}{}", missing, text.empty() ? "" : "; the others: ", text)
-                          : fmt::format("{}; {}", text, missing);
-}
-
-CheckSuite frame_suite(const std::string& name, const std::vector<FrameBound>& bounds,
-                       const std::vector<MeasuredFrame>& frames, const std::vector<RefusedFrame>& refused,
-                       double seconds)
-{
-    CheckSuite suite{name, seconds, {}, {}};
-    for (const FrameBound& bound : bounds)
-        if (bound.value && !frames.empty()) suite.cases.push_back(judged(name, bound, frames));
-    if (suite.cases.empty() && !frames.empty())
-        suite.cases.push_back({name,
-                               "measured",
-                               CheckState::held,
-                               fmt::format("{} frames, no bounds", frames.size()),
-                               std::nullopt,
-                               {},
-                               "",
-                               0});
-    for (const RefusedFrame& frame : refused)
-        suite.cases.push_back(
-            {name, "frame " + frame.name, CheckState::refused, frame.reason, std::nullopt, {}, "", 0});
-    return suite;
 }
 
 }  // namespace analysis
