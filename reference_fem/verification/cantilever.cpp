@@ -77,7 +77,7 @@ VerificationRows cantilever_rows(const Effort& effort)
 // The share of bending and torsion that remains as Poisson's ratio approaches 1/2, by element: linear tets have about
 // as many volumes to keep as displacements to keep them with, and lock.
 //   bending: the cantilever of cantilever.cpp, against Timoshenko's beam
-//   torsion: the bar of torsion.cpp; Saint-Venant's solution changes no volume, so its torque does not depend on
+//   torsion: the bar of turned_bars.cpp; Saint-Venant's solution changes no volume, so its torque does not depend on
 //            Poisson's ratio
 // Only formulations for nearly incompressible materials (reference_fem/options.hpp) have bounds.
 

@@ -95,7 +95,7 @@ pbs::TetMesh joined(const std::vector<pbs::TetMesh>& meshes);
 VerificationRow cantilever_row(const Effort& effort, double poisson, int element_order, Formulation formulation,
                                const Divisions& divisions);
 
-// Torque of a cube of n^3 cells, without bounds (torsion.cpp).
+// Torque of a cube of n^3 cells, without bounds (turned_bars.cpp).
 VerificationRow torsion_row(const Effort& effort, double poisson, int element_order, Formulation formulation, int n);
 
 // The panel of Cook's membrane: corners (0,0), (48,44), (48,60), (0,44) mm, 1 mm thick. Units: N and mm. Only the half

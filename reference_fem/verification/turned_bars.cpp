@@ -1,7 +1,7 @@
-// A square bar whose ends turn against each other, free to warp: Saint-Venant's torsion is then the exact solution in
-// three dimensions. Torque = G J theta / L, J = s^4 / 3 (1 - 192 / pi^5 sum over odd n of tanh(n pi / 2) / n^5)
-// (Timoshenko and Goodier, Theory of elasticity, art. 109). The data are displacements, so the strain energy, hence the
-// torque, comes from above, with twice the order of the displacement gradient.
+// Three problems of bars whose ends are turned against each other:
+//   torsion       a small turn of linear flesh, compared with Saint-Venant's exact solution
+//   twisted_beam  MacNeal and Harder's beam, which is turned by 90 degrees at rest and bent by a load at its tip
+//   half_turn     a turn of 180 degrees with each law, compared with an earlier implementation
 
 #include "reference_fem/newton/newton.hpp"
 #include "reference_fem/potentials/potentials.hpp"
@@ -12,12 +12,23 @@
 #include <numbers>
 
 namespace reference_fem {
+
+// A square bar whose ends turn against each other and are free to warp. Saint-Venant's torsion is the exact solution in
+// three dimensions (Timoshenko and Goodier, Theory of elasticity, art. 109):
+//   torque = G J theta / L,   J = s^4 / 3 (1 - 192 / pi^5 sum over odd n of tanh(n pi / 2) / n^5).
+// The data are displacements, so that the strain energy and therefore the torque converge from above, with twice the
+// order of the displacement gradient.
+
 namespace torsion {
 
 using pbs::Vec3;
 
-constexpr double length_m = 1.0, side_m = 1.0, angle = 1.0e-3, young_pa = 1.0e5;
+constexpr double length_m = 1.0;
+constexpr double side_m = 1.0;
+constexpr double angle_rad = 1.0e-3;
+constexpr double young_pa = 1.0e5;
 
+// J [m^4]
 double torsion_constant()
 {
     double sum = 0.0;
@@ -31,25 +42,30 @@ VerificationRow torsion_row(const Effort& effort, double nu, int element_order, 
 {
     using namespace torsion;
     const ElasticMaterial material{young_pa, nu};
-    const auto turned = [](const Vec3& x) -> Vec3 { return angle * x.x() / length_m * Vec3(0.0, -x.z(), x.y()); };
+    const auto displacement = [](const Vec3& x) -> Vec3 {
+        return angle_rad * x.x() / length_m * Vec3(0.0, -x.z(), x.y());
+    };
     const auto held = [](const Vec3& x) {
         const bool at_end = x.x() < 1e-9 || x.x() > length_m - 1e-9;
         return Held(x.norm() < 1e-9, at_end, at_end);  // one point keeps the bar from sliding along its axis
     };
-    const ElasticMaterial solved = solver_material(effort, material);
+    const ElasticMaterial material_of_solver = solver_material(effort, material);
+    const pbs::TetMesh bar =
+        box_mesh({0, -side_m / 2.0, -side_m / 2.0}, {length_m, side_m / 2.0, side_m / 2.0}, {n, n, n});
     const BoundaryValueSolution solution =
-        solve(box_mesh({0, -side_m / 2.0, -side_m / 2.0}, {length_m, side_m / 2.0, side_m / 2.0}, {n, n, n}), solved,
-              {.displacement = turned, .held = held, .element_order = element_order, .formulation = formulation});
+        solve(bar, material_of_solver,
+              {.displacement = displacement, .held = held, .element_order = element_order, .formulation = formulation});
     const double shear_pa = young_pa / (2.0 * (1.0 + nu));
     return row_about({"torsion", elements_of(element_order, formulation), linear_material(nu), text_of({n, n, n}),
                       side_m / n, solution.space->dofs()},
-                     {"torque", "torque"}, 2.0 * solution.strain_energy_j(solved) / angle,
-                     shear_pa * torsion_constant() * angle / length_m, "N m",
+                     {"torque", "torque"}, 2.0 * solution.strain_energy_j(material_of_solver) / angle_rad,
+                     shear_pa * torsion_constant() * angle_rad / length_m, "N m",
                      "closed form: Saint-Venant's series (Timoshenko and Goodier, Theory of elasticity, art. 109)");
 }
 
 namespace torsion {
 
+// Meshes of coarsest, 2 coarsest, ... cells along each edge. The finest one has a bound or an expected order.
 VerificationRows bounded_ladder(const Effort& effort, int element_order, int coarsest, int levels)
 {
     const auto row_of = [&](int n) { return torsion_row(effort, 0.3, element_order, Formulation::displacement, n); };
@@ -83,18 +99,21 @@ VerificationRows torsion_rows(const Effort& effort)
 // the plane of the tip's width and bends the beam about its thin side where the moment is largest: the large
 // deflection; a load along y is out of that plane.
 //
-// Beam theory alone determines which value belongs to which load: deflection = P / E times the integral of
-// s^2 (cos^2 phi / I_width + sin^2 phi / I_thickness), s the distance to the tip, phi the angle between the load and
-// the width.
+// Beam theory alone determines which of the two published values belongs to which load. It gives the deflection as P /
+// E times the integral of s^2 (cos^2 phi / I_width + sin^2 phi / I_thickness). Here s is the distance to the tip, and
+// phi is the angle between the load and the width.
 
 namespace twisted_beam {
 
 using pbs::Vec3;
 
-constexpr double length_in = 12.0, width_in = 1.1, thickness_in = 0.32;
-const ElasticMaterial material{29.0e6, 0.22};
+constexpr double length_in = 12.0;
+constexpr double width_in = 1.1;
+constexpr double thickness_in = 0.32;
+const ElasticMaterial material{29.0e6, 0.22};  // [psi]
 
-double turn(double x)
+// The angle by which the section at x [in] is turned at rest [rad].
+double turn_rad(double x)
 {
     return std::numbers::pi / 2.0 * x / length_in;
 }
@@ -104,20 +123,22 @@ pbs::TetMesh beam(const Divisions& divisions)
     return mapped(
         box_mesh({0, -width_in / 2.0, -thickness_in / 2.0}, {length_in, width_in / 2.0, thickness_in / 2.0}, divisions),
         [](const Vec3& p) -> Vec3 {
-            const double c = std::cos(turn(p.x())), s = std::sin(turn(p.x()));
+            const double c = std::cos(turn_rad(p.x()));
+            const double s = std::sin(turn_rad(p.x()));
             return {p.x(), c * p.y() - s * p.z(), s * p.y() + c * p.z()};
         });
 }
 
-// Bending alone, Simpson's rule.
-double beam_theory(const Vec3& load)
+// The tip deflection by bending alone [in], integrated by Simpson's rule. load: a unit vector [lbf].
+double deflection_of_beam_in(const Vec3& load)
 {
-    const double along_width = thickness_in * std::pow(width_in, 3) / 12.0,
-                 along_thickness = width_in * std::pow(thickness_in, 3) / 12.0;
+    const double moment_of_width = thickness_in * std::pow(width_in, 3) / 12.0;      // I_width [in^4]
+    const double moment_of_thickness = width_in * std::pow(thickness_in, 3) / 12.0;  // I_thickness [in^4]
     const auto integrand = [&](double x) {
-        const Vec3 width(0.0, std::cos(turn(x)), std::sin(turn(x)));
-        const double share = std::pow(load.dot(width), 2);
-        return std::pow(length_in - x, 2) * (share / along_width + (1.0 - share) / along_thickness) / material.young_pa;
+        const Vec3 width(0.0, std::cos(turn_rad(x)), std::sin(turn_rad(x)));
+        const double cos2_phi = std::pow(load.dot(width), 2);
+        return std::pow(length_in - x, 2) * (cos2_phi / moment_of_width + (1.0 - cos2_phi) / moment_of_thickness) /
+               material.young_pa;
     };
     const int n = 200;
     double sum = integrand(0.0) + integrand(length_in);
@@ -142,7 +163,7 @@ VerificationRow row_of(const Effort& effort, const Vec3& load, int element_order
             : RowQuantity{"tip_deflection_out_of_plane", "tip deflection, load across the tip's width (out of plane)"},
         solution.work_of_load_j(), in_plane ? 0.005424 : 0.001754, "in",
         "R. MacNeal, R. Harder, Finite Elements in Analysis and Design 1 (1985) 3-20, Table 7");
-    row.note = fmt::format("beam theory, bending alone: {:.6f} in", beam_theory(load));
+    row.note = fmt::format("beam theory, bending alone: {:.6f} in", deflection_of_beam_in(load));
     return row;
 }
 
@@ -163,17 +184,19 @@ VerificationRows twisted_beam_rows(const Effort& effort)
     return rows;
 }
 
-// A bar of 3.375 x 1 x 1 m, 27 x 8 x 8 cells, both ends held, one turned by 180 degrees in ten steps, in linear tets:
-// Newton's iterations and the states that it finds by each law, against an earlier implementation of ours with an
-// assembly and a Newton loop of its own. Large rotations distinguish the laws: linear strain takes them for a swelling
-// of 31 % at 90 degrees and turns tets inside out, St Venant-Kirchhoff gives way.
+// A bar of 3.375 x 1 x 1 m in linear tets, 27 x 8 x 8 cells, whose ends are held and of which one is turned by 180
+// degrees in ten steps. Newton's iterations and the states that it finds by each law are compared with an earlier
+// implementation of ours, which has an assembly and a Newton loop of its own. Large rotations distinguish the laws:
+// linear strain takes them for a swelling of 31 % at 90 degrees and turns tets inside out, and St Venant-Kirchhoff
+// gives way.
 
 namespace half_turn {
 
 using pbs::Vec3;
 
 const Divisions divisions = {27, 8, 8};
-constexpr double length_m = 3.375, young_pa = 1e5;
+constexpr double length_m = 3.375;
+constexpr double young_pa = 1e5;
 constexpr int steps = 10;
 const std::string source =
     "our earlier implementation of the same laws and tets, with an assembly and a Newton loop of its own: regression, "
@@ -202,34 +225,35 @@ const std::vector<Law> laws = {
     {Model::linear, "linear", 0.3, {10, 30.753109139, -4.8410438713, 8.406643111517e4}}};
 
 // Both ends are held, the one at x = 0 at rest.
-PrescribedData turned_end(const SimplexSpace& space, double angle)
+PrescribedData turned_end(const SimplexSpace& space, double angle_rad)
 {
-    const auto displacement = [angle](const Vec3& x) -> Vec3 {
+    const auto displacement = [angle_rad](const Vec3& x) -> Vec3 {
         if (x.x() < length_m - 1e-9) return Vec3::Zero();
-        const double c = std::cos(angle), s = std::sin(angle);
+        const double c = std::cos(angle_rad);
+        const double s = std::sin(angle_rad);
         return {0.0, c * x.y() - s * x.z() - x.y(), s * x.y() + c * x.z() - x.z()};
     };
     const auto held = [](const Vec3& x) { return x.x() < 1e-9 || x.x() > length_m - 1e-9; };
     return prescribed_data(space, {.displacement = displacement, .held = held});
 }
 
-// Not a number from the step on that did not converge.
-TurnValues turn(const SimplexSpace& space, const ElasticPotential& flesh)
+// Turns the end in ten steps. Values are not a number from the step on that did not converge.
+TurnValues values_of_turn(const SimplexSpace& space, const ElasticPotential& flesh)
 {
     NewtonMinimiser newton(space, turned_end(space, 0.0).held, LinearSolver::cholmod);
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(space.dofs());
     const auto volume_change_pct = [&] { return 100.0 * (flesh.jacobians(displacement).volume / length_m - 1.0); };
-    TurnValues turned{0.0, not_reached, not_reached, not_reached};
+    TurnValues values{0.0, not_reached, not_reached, not_reached};
     for (int step = 1; step <= steps; ++step) {
         const NewtonSummary summary =
             newton.minimise({&flesh}, turned_end(space, std::numbers::pi * step / steps).values, displacement, {});
-        if (!summary.converged()) return turned;
-        turned.iterations += summary.steps();
-        if (2 * step == steps) turned.volume_change_at_90_pct = volume_change_pct();
+        if (!summary.converged()) return values;
+        values.iterations += summary.steps();
+        if (2 * step == steps) values.volume_change_at_90_pct = volume_change_pct();
     }
-    turned.volume_change_at_180_pct = volume_change_pct();
-    turned.energy_j = flesh.value(displacement);
-    return turned;
+    values.volume_change_at_180_pct = volume_change_pct();
+    values.energy_j = flesh.value(displacement);
+    return values;
 }
 
 struct TurnQuantity {
@@ -246,18 +270,18 @@ const std::vector<TurnQuantity> quantities = {
 VerificationRows rows_of(const Effort& effort, const SimplexSpace& space, const Law& law)
 {
     const ElasticMaterial material = solver_material(effort, {young_pa, law.poisson});
-    const TurnValues ours =
-        turn(space, ElasticPotential(space, law.model, lame_parameters(material.young_pa, material.poisson),
-                                     Formulation::displacement));
+    const ElasticPotential flesh(space, law.model, lame_parameters(material.young_pa, material.poisson),
+                                 Formulation::displacement);
+    const TurnValues values = values_of_turn(space, flesh);
     const RowSolution solution{"half_turn",        elements_of(1),          material_of(law.name, law.poisson),
                                text_of(divisions), length_m / divisions[0], space.dofs()};
     VerificationRows rows;
     for (const auto& [quantity, unit, value] : quantities) {
         const double reference = law.reference.*value;
-        // both stop at forces of 1e-8, Newton's last step being quadratic
-        const double same = 1e-6 * std::abs(reference);
-        rows.push_back(row_about(solution, quantity, ours.*value, reference, unit, source));
-        bound(rows.back(), reference - same, reference + same,
+        // Both programs stop at forces of 1e-8, and the last step of Newton's method converges quadratically.
+        const double tolerance = 1e-6 * std::abs(reference);
+        rows.push_back(row_about(solution, quantity, values.*value, reference, unit, source));
+        bound(rows.back(), reference - tolerance, reference + tolerance,
               "the same discrete problem: 1e-6 of the value, for both stop at a residual of 1e-8 of the forces");
     }
     bound(rows.front(), 1.0, 1.5 * law.reference.iterations, "at most 1.5 times the other implementation's");
