@@ -1,3 +1,7 @@
+// What each optional feature of a scene costs, such as threads or sleep: measure_features of timing.hpp. A feature is a
+// pair of scenes that differ in it alone. Every scene of the pairs runs in a process of its own, the scenes take turns,
+// and features.csv has one row per feature.
+
 #include "experiments/studies/timing/timing.hpp"
 
 #include "analysis/metrics/frame_metrics.hpp"
@@ -37,6 +41,7 @@ std::vector<Feature> features_of(const StudyCase& study_case)
 
 Scene scene_of(const std::string& name, const std::vector<std::string>& cut, const Variant& variant)
 {
+    // The bare scene has PBS alone, no reference, no frames on disk, and no metrics except the volume.
     std::vector<std::string> overrides = {R"(deformers.use=["pbs"])", R"(reference.name="")",  "output.frames_every=0",
                                           "output.frames=[]",         "output.frame_names=[]", "output.metrics=[]"};
     overrides.insert(overrides.end(), cut.begin(), cut.end());
@@ -51,7 +56,7 @@ namespace {
 using analysis::Columns;
 using analysis::within;
 
-// The costs that are compared, in the order of costs_of_run.
+// The costs that are compared, with their names in features.csv, in the order of costs_of_run.
 constexpr std::pair<Compared FeatureRow::*, const char*> compared_costs[] = {
     {&FeatureRow::frame_ms, "frame_ms"}, {&FeatureRow::frame_cpu_ms, "frame_cpu_ms"},
     {&FeatureRow::step_ms, "step_ms"},   {&FeatureRow::step_cpu_ms, "step_cpu_ms"},
@@ -59,15 +64,18 @@ constexpr std::pair<Compared FeatureRow::*, const char*> compared_costs[] = {
 
 Columns<FeatureRow> cost_columns()
 {
-    const QuartileEndings endings = {"_lower", "_upper"};
-    Columns<FeatureRow> all;
-    for (const auto& [part, name] : compared_costs)
-        for (const auto& [of, ending] : {std::pair(&Compared::without, "_without"), std::pair(&Compared::with, "_with"),
-                                         std::pair(&Compared::ratio, "_ratio")})
-            all = all + within(part, within(of, spread_columns(std::string(name) + ending, endings)));
-    return all;
+    const QuartileEndings quartile_endings = {"_lower", "_upper"};
+    const std::pair<Spread Compared::*, const char*> spreads[] = {
+        {&Compared::without, "_without"}, {&Compared::with, "_with"}, {&Compared::ratio, "_ratio"}};
+    Columns<FeatureRow> columns;
+    for (const auto& [cost, name] : compared_costs)
+        for (const auto& [spread, ending] : spreads)
+            columns =
+                columns + within(cost, within(spread, spread_columns(std::string(name) + ending, quartile_endings)));
+    return columns;
 }
 
+// std::logic_error if the scene has no PBS.
 const DeformerSpec& pbs_of(const Scene& scene)
 {
     const DeformerSpec* pbs = find_deformer_with<pbs::PbsOptions>(scene);
@@ -75,7 +83,7 @@ const DeformerSpec& pbs_of(const Scene& scene)
     return *pbs;
 }
 
-// Seconds before the first frame.
+// The seconds before the first frame. seconds: cost.seconds or cost.cpu_seconds of run.json.
 double start_of(const nlohmann::json& seconds)
 {
     double sum = seconds.value("error_bar_set_up", 0.0);  // only a reference with an error bar has it
@@ -83,7 +91,7 @@ double start_of(const nlohmann::json& seconds)
     return sum;
 }
 
-// Gives stderr a terminal of its own, so that the bar is drawn and nobody sees it.
+// Gives stderr a terminal of its own, so that the progress bar is drawn although nobody sees it.
 void draw_progress_unseen()
 {
     const int master = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
@@ -94,14 +102,16 @@ void draw_progress_unseen()
     show_progress();
 }
 
+// How far the feature moves the result, measured in a process of its own. It is empty for a feature that does not
+// change the result.
 std::optional<ResultChange> change_by(const Feature& feature, const FeaturesCase& features_case)
 {
     if (!feature.changes_result) return std::nullopt;
-    const Scene without = scene_of(features_case.scene, features_case.cut, feature.without),
-                with = scene_of(features_case.scene, features_case.cut, feature.with);
+    const Scene without = scene_of(features_case.scene, features_case.cut, feature.without);
+    const Scene with = scene_of(features_case.scene, features_case.cut, feature.with);
     const nlohmann::json change = in_own_process([&] {
-        const ResultChange found = change_between(without, with);
-        return nlohmann::json{found.distance_m, found.volume_difference_pct};
+        const ResultChange measured = change_between(without, with);
+        return nlohmann::json{measured.distance_m, measured.volume_difference_pct};
     });
     return ResultChange{change.at(0), change.at(1)};
 }
@@ -129,10 +139,11 @@ std::vector<double> costs_of_run(const nlohmann::json& run, const Scene& scene)
 {
     const nlohmann::json& cost = run.at("cost");
     const double ms_per_frame = 1e3 / run.at("outcome").at("frames").get<double>();
+    // milliseconds per frame of the whole run and of the steps of PBS
     const auto frame_and_step = [&](const nlohmann::json& seconds) {
-        const double frames = seconds.at("total").get<double>() - start_of(seconds);
-        const double step = seconds.at("deformers").at(pbs_of(scene).label).at("step");
-        return std::pair(ms_per_frame * frames, ms_per_frame * step);
+        const double frames_s = seconds.at("total").get<double>() - start_of(seconds);
+        const double steps_s = seconds.at("deformers").at(pbs_of(scene).label).at("step");
+        return std::pair(ms_per_frame * frames_s, ms_per_frame * steps_s);
     };
     const auto [frame_ms, step_ms] = frame_and_step(cost.at("seconds"));
     const auto [frame_cpu_ms, step_cpu_ms] = frame_and_step(cost.at("cpu_seconds"));
@@ -153,7 +164,10 @@ FeatureRow feature_row(const std::string& scene, const std::string& feature, con
     row.feature = feature;
     row.change = change;
     std::size_t cost = 0;
-    for (const auto& [part, name] : compared_costs) row.*part = compare(without.at(cost), with.at(cost)), ++cost;
+    for (const auto& [compared, name] : compared_costs) {
+        row.*compared = compare(without.at(cost), with.at(cost));
+        ++cost;
+    }
     row.rounds = row.frame_ms.ratio.rounds;
     row.shared_objects_without = static_cast<int>(without.at(cost).back());
     row.shared_objects_with = static_cast<int>(with.at(cost).back());
@@ -165,18 +179,21 @@ ResultChange change_between(const Scene& without, const Scene& with)
     const pbs::Character character = pbs::make_character(without.character);
     const pbs::Motion motion = make_motion(without.motion, character.skeleton, without.file);
     const analysis::MeshMetrics mesh_metrics(character.mesh.rest, character.mesh.tets);
-    const auto before = make_deformer(pbs_of(without)), after = make_deformer(pbs_of(with));
-    before->reset(character);
-    after->reset(character);
+    const auto deformer_without = make_deformer(pbs_of(without));
+    const auto deformer_with = make_deformer(pbs_of(with));
+    deformer_without->reset(character);
+    deformer_with->reset(character);
     ResultChange change;
     for (const pbs::Pose& pose : motion.steps) {
-        before->advance(pose, motion.time_step_s);
-        after->advance(pose, motion.time_step_s);
-        const double distance = (before->positions() - after->positions()).rowwise().norm().maxCoeff();
-        const double volume = mesh_metrics.measure(before->positions()).volume_change_pct -
-                              mesh_metrics.measure(after->positions()).volume_change_pct;
-        change.distance_m = std::max(change.distance_m, distance);
-        change.volume_difference_pct = std::max(change.volume_difference_pct, std::abs(volume));
+        deformer_without->advance(pose, motion.time_step_s);
+        deformer_with->advance(pose, motion.time_step_s);
+        const pbs::Positions& positions_without = deformer_without->positions();
+        const pbs::Positions& positions_with = deformer_with->positions();
+        const double distance_m = (positions_without - positions_with).rowwise().norm().maxCoeff();
+        const double volume_difference_pct = mesh_metrics.measure(positions_without).volume_change_pct -
+                                             mesh_metrics.measure(positions_with).volume_change_pct;
+        change.distance_m = std::max(change.distance_m, distance_m);
+        change.volume_difference_pct = std::max(change.volume_difference_pct, std::abs(volume_difference_pct));
     }
     return change;
 }
@@ -184,7 +201,7 @@ ResultChange change_between(const Scene& without, const Scene& with)
 // Returns the first breakdown. A bad frame is no failure here, since no reference has to reach a bend of 150 degrees.
 std::string measure_features(const FeaturesCase& features_case, const std::string& folder)
 {
-    std::vector<Variant> variants;  // each once, however many features it is a part of
+    std::vector<Variant> variants;  // Each variant is measured once, even if several features have it.
     for (const Feature& feature : features_case.features)
         for (const Variant& variant : {feature.without, feature.with})
             if (std::ranges::find(variants, variant) == variants.end()) variants.push_back(variant);
