@@ -1,3 +1,6 @@
+// Bones as rigid capsules in the flesh and the springs that hold flesh by them (bone_capsules, sample_points,
+// smooth_density, bone_springs), and the paper's jiggling zone on a body (zone_contents).
+
 #include "experiments/characters/bone_capsules.hpp"
 
 #include "experiments/characters/skinning_weights.hpp"
@@ -23,14 +26,19 @@ struct Mean {
     double sum = 0.0;
     int count = 0;
 
-    void add(double value) { sum += value, ++count; }
+    void add(double value)
+    {
+        sum += value;
+        ++count;
+    }
     double value() const { return sum / count; }
 };
 
 // Mean distances of skin vertices to their nearest bones [m].
 struct LimbRadii {
-    std::vector<Mean> on_middle, on_bone;  // #bones
-    Mean on_skeleton;
+    std::vector<Mean> on_middle;  // #bones; over the vertices that project on the middle of the bone
+    std::vector<Mean> on_bone;    // #bones; over all vertices that are nearest to the bone
+    Mean on_skeleton;             // over all vertices
 };
 
 LimbRadii limb_radii(const Character& character)
@@ -41,7 +49,8 @@ LimbRadii limb_radii(const Character& character)
     LimbRadii radii{std::vector<Mean>(bones), std::vector<Mean>(bones), {}};
     for (std::size_t v = 0; v < skin.size(); ++v) {
         if (!skin[v]) continue;
-        const double distance = binding.distance(v), parameter = binding.parameter(v);
+        const double distance = binding.distance(v);
+        const double parameter = binding.parameter(v);
         radii.on_skeleton.add(distance);
         radii.on_bone[binding.bone[v]].add(distance);
         if (parameter >= middle_begin && parameter <= middle_end) radii.on_middle[binding.bone[v]].add(distance);
@@ -49,6 +58,7 @@ LimbRadii limb_radii(const Character& character)
     return radii;
 }
 
+// The vertices of a zone, grouped by the edges inside it, with the largest piece first.
 std::vector<std::vector<int>> pieces_of(const std::vector<bool>& zone, const Tets& tets)
 {
     const Adjacency edges = adjacency_of(tets, static_cast<int>(zone.size()));
@@ -71,24 +81,27 @@ std::vector<std::vector<int>> pieces_of(const std::vector<bool>& zone, const Tet
     return pieces;
 }
 
+// The bones with vertices in the zone. The bone that has the largest share of the zone is the first one.
 std::vector<BoneInZone> bones_of(const std::vector<bool>& zone, const Character& character)
 {
-    std::vector<int> all(character.skeleton.bones.size(), 0), inside(all);
+    std::vector<int> bound(character.skeleton.bones.size(), 0);  // vertices that are bound to each bone
+    std::vector<int> inside(bound);                              // those of them in the zone
     for (std::size_t v = 0; v < zone.size(); ++v) {
-        ++all[character.binding.bone[v]];
+        ++bound[character.binding.bone[v]];
         inside[character.binding.bone[v]] += zone[v];
     }
-    const double total = static_cast<double>(std::count(zone.begin(), zone.end(), true));
+    const double in_zone = static_cast<double>(std::count(zone.begin(), zone.end(), true));
     std::vector<BoneInZone> bones;
-    for (std::size_t b = 0; b < all.size(); ++b)
+    for (std::size_t b = 0; b < bound.size(); ++b)
         if (inside[b] > 0)
             bones.push_back(
-                {character.skeleton.bones[b].name, inside[b] / total, static_cast<double>(inside[b]) / all[b]});
+                {character.skeleton.bones[b].name, inside[b] / in_zone, static_cast<double>(inside[b]) / bound[b]});
     std::stable_sort(bones.begin(), bones.end(),
                      [](const auto& a, const auto& b) { return a.share_of_zone > b.share_of_zone; });
     return bones;
 }
 
+// Collects springs one by one. end() writes them into `held`.
 class SpringList {
 public:
     explicit SpringList(CapsuleSprings& held) : held_(held) {}
@@ -115,9 +128,12 @@ private:
     std::vector<double> stiffness_m_;
 };
 
-// The points of the quadrature rule of degree 2 in a tet (Hammer, Marlowe, Stroud 1956): each is near one corner.
-constexpr double near = 0.585410196624968515, far = 0.138196601125010504;  // (5 + 3 sqrt 5) / 20, (5 - sqrt 5) / 20
+// Barycentric coordinates of the quadrature rule of degree 2 in a tet (Hammer, Marlowe, Stroud 1956): each point is
+// near one corner and equally far from the three others.
+constexpr double near = 0.585410196624968515;  // (5 + 3 sqrt 5) / 20
+constexpr double far = 0.138196601125010504;   // (5 - sqrt 5) / 20
 
+// The four points of the rule [m], 4 x 3.
 Eigen::Matrix<double, 4, 3> quadrature_points(const TetMesh& mesh, Eigen::Index tet)
 {
     Eigen::Matrix<double, 4, 3> corners;
@@ -125,11 +141,13 @@ Eigen::Matrix<double, 4, 3> quadrature_points(const TetMesh& mesh, Eigen::Index 
     return ((near - far) * corners).rowwise() + far * corners.colwise().sum();
 }
 
+// The stiffness of the spring at each of the four points in a tet that a bone holds rigidly, over Young's modulus [m].
 double rigid_stiffness_m(const BoneCapsule& capsule, double volume_m3)
 {
     return rigid_spring_factor / (capsule.radius_m * capsule.radius_m) * volume_m3 / 4.0;
 }
 
+// Adds stiff springs throughout the tets that one bone alone moves.
 void hold_what_one_bone_moves(const Character& coarse, const std::vector<BoneCapsule>& rigid, SpringList& springs)
 {
     const std::vector<int> alone = bones_that_move_alone(coarse);
@@ -142,36 +160,50 @@ void hold_what_one_bone_moves(const Character& coarse, const std::vector<BoneCap
     }
 }
 
-// The separate parts whose springs do not span a plane, so that they could turn freely, of parts_of.
+// The separate parts that could turn freely, since their springs do not span a plane. part: the part of each tet
+// (parts_of), #T.
 std::set<int> loose_parts(const TetMesh& mesh, const std::vector<int>& part, const SpringList& springs)
 {
     constexpr double rounding = 1e-12;
-    struct Held {
+    struct PointMoments {
         double points = 0.0;
         Vec3 sum = Vec3::Zero();
         Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     };
-    std::map<int, Held> held;
+    std::map<int, PointMoments> moments_of_part;
     const PointLocation location(mesh);
     for (const Vec3& point : springs.points())
         if (const Eigen::Index tet = location.locate(point).tet; tet >= 0) {
-            Held& of_part = held[part[static_cast<std::size_t>(tet)]];
-            ++of_part.points;
-            of_part.sum += point;
-            of_part.squares += point * point.transpose();
+            PointMoments& moments = moments_of_part[part[static_cast<std::size_t>(tet)]];
+            ++moments.points;
+            moments.sum += point;
+            moments.squares += point * point.transpose();
         }
     std::set<int> loose(part.begin(), part.end());
-    for (const auto& [own, of_part] : held) {
-        const Eigen::Matrix3d scatter = of_part.squares - of_part.sum * of_part.sum.transpose() / of_part.points;
+    for (const auto& [held_part, moments] : moments_of_part) {
+        const Eigen::Matrix3d scatter = moments.squares - moments.sum * moments.sum.transpose() / moments.points;
         const Vec3 spread =
             Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
-        if (spread(1) > rounding * of_part.squares.trace()) loose.erase(own);
+        if (spread(1) > rounding * moments.squares.trace()) loose.erase(held_part);
     }
     return loose;
 }
 
-// Springs of all bones at one point, as stiff as their weights are large, are one to the point's place by linear blend
-// skinning.
+// The artist's weight of each bone at the quadrature point of a tet that is near the given corner.
+std::map<int, double> weights_at_point(const Weights& weights, const Tets& tets, Eigen::Index tet, int near_corner)
+{
+    std::map<int, double> weight_of_bone;
+    for (int corner = 0; corner < 4; ++corner) {
+        const int vertex = tets(tet, corner);
+        for (int e = weights.first[vertex]; e < weights.first[vertex + 1]; ++e)
+            weight_of_bone[weights.bone[e]] += (corner == near_corner ? near : far) * weights.weight[e];
+    }
+    return weight_of_bone;
+}
+
+// Adds springs that let each loose part follow linear blend skinning: several springs at one point, from each of its
+// bones and with a stiffness proportional to the weight of the bone, act as one spring to the point's place by linear
+// blend skinning.
 void hold_loose_parts(const Character& coarse, const std::vector<BoneCapsule>& rigid, SpringList& springs,
                       CapsuleSprings& held)
 {
@@ -185,14 +217,11 @@ void hold_loose_parts(const Character& coarse, const std::vector<BoneCapsule>& r
         held.loose_share += volumes_m3(tet) / volumes_m3.sum();
         const Eigen::Matrix<double, 4, 3> points = quadrature_points(coarse.mesh, tet);
         for (int i = 0; i < 4; ++i) {
-            std::map<int, double> at_point;
-            for (int corner = 0; corner < 4; ++corner)
-                for (int v = coarse.mesh.tets(tet, corner), e = weights.first[v]; e < weights.first[v + 1]; ++e)
-                    at_point[weights.bone[e]] += (corner == i ? near : far) * weights.weight[e];
+            const std::map<int, double> weight_of_bone = weights_at_point(weights, coarse.mesh.tets, tet, i);
             const int heaviest =
-                std::ranges::max_element(at_point, {}, [](const auto& entry) { return entry.second; })->first;
+                std::ranges::max_element(weight_of_bone, {}, [](const auto& entry) { return entry.second; })->first;
             const double stiffness_m = rigid_stiffness_m(rigid[heaviest], volumes_m3(tet));
-            for (const auto& [bone, weight] : at_point)
+            for (const auto& [bone, weight] : weight_of_bone)
                 if (weight > 0.0) springs.add(points.row(i), bone, weight, weight * stiffness_m);
         }
     }
@@ -242,10 +271,13 @@ Positions sample_points(const BoneCapsule& capsule, int samples)
 {
     if (samples < 1)
         throw std::invalid_argument("sample_points: expected samples of at least 1, not " + std::to_string(samples));
-    const int stations = 40 * samples, rings = 8 * samples, spokes = 24 * samples;
+    const int stations = 40 * samples;
+    const int rings = 8 * samples;
+    const int spokes = 24 * samples;
     const int points_per_disc = 1 + rings * spokes;
     const Vec3 axis = capsule.end - capsule.start;
-    const Vec3 across = axis.unitOrthogonal(), binormal = axis.normalized().cross(across);
+    const Vec3 across = axis.unitOrthogonal();
+    const Vec3 binormal = axis.normalized().cross(across);
     Positions points(stations * points_per_disc, 3);
     Eigen::Index next = 0;
     for (int station = 0; station < stations; ++station) {
@@ -286,18 +318,18 @@ std::vector<int> bones_that_move_alone(const Character& character)
     Weights weights = character.artist ? character.artist->weights : weights_by(WeightKind::diffused, character);
     if (!character.moves_with.empty())
         for (int& bone : weights.bone) bone = character.moves_with[static_cast<std::size_t>(bone)];
-    std::vector<int> of_tet;
+    std::vector<int> bone_of_tet;
     for (const auto corners : character.mesh.tets.rowwise()) {
         const auto is_moved_alone_by = [&](int bone) {
             return std::ranges::all_of(corners, [&](int v) { return weights.of(v, bone) > weight_alone; });
         };
         const int first = corners(0);
-        const auto begin = weights.bone.begin() + weights.first[first],
-                   end = weights.bone.begin() + weights.first[first + 1];
+        const auto begin = weights.bone.begin() + weights.first[first];
+        const auto end = weights.bone.begin() + weights.first[first + 1];
         const auto bone = std::find_if(begin, end, is_moved_alone_by);
-        of_tet.push_back(bone == end ? -1 : *bone);
+        bone_of_tet.push_back(bone == end ? -1 : *bone);
     }
-    return of_tet;
+    return bone_of_tet;
 }
 
 CapsuleSprings bone_springs(const Character& character, SpringPlacement placement, const SmoothSpringOptions& options)
@@ -305,6 +337,7 @@ CapsuleSprings bone_springs(const Character& character, SpringPlacement placemen
     CapsuleSprings held{.capsules = bone_capsules(character, options.core_radius), .springs = {}, .density = {}};
     SpringList springs(held);
     const PointLocation location(character.mesh);
+    // Where the flesh is cut between parts, a bone has no springs in tets that it does not move.
     const auto may_hold = [&](const Vec3& point, int bone) {
         if (!character.artist || !character.artist->is_cut) return true;
         const Eigen::Index tet = location.locate(point).tet;
@@ -343,7 +376,8 @@ ZoneContents zone_contents(const Character& character)
     ZoneContents contents;
     contents.pieces = pieces_of(zone, character.mesh.tets);
     contents.bones = bones_of(zone, character);
-    double inside = 0.0, on_skin = 0.0;
+    double inside = 0.0;   // vertices in the zone
+    double on_skin = 0.0;  // those of them on the skin
     for (std::size_t v = 0; v < zone.size(); ++v) {
         inside += zone[v];
         on_skin += zone[v] && skin[v];
