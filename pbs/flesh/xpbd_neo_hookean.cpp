@@ -1,3 +1,7 @@
+// Flesh by XPBD with neo-Hookean constraints. In this order: the loop over steps with momentum (XpbdNeoHookean), the
+// constraints and masses (XpbdFlesh), and the two implementations of one pass over the constraints: PackedXpbd, whose
+// kernels are in flesh_kernels.hpp, and PlainXpbd, which has the equations of xpbd_neo_hookean.hpp in plain code.
+
 #include "pbs/flesh/xpbd_neo_hookean.hpp"
 
 #include "pbs/flesh/flesh_kernels.hpp"
@@ -29,7 +33,7 @@ XpbdNeoHookean<Scalar>::XpbdNeoHookean(const TetMesh& mesh, const XpbdFlesh& fle
 template <typename Scalar>
 XpbdNeoHookeanSummary XpbdNeoHookean<Scalar>::minimise(const Positions& targets, Positions& x)
 {
-    const bool keeps = options_.multipliers == XpbdMultipliers::kept;
+    const bool keeps_multipliers = options_.multipliers == XpbdMultipliers::kept;
     XpbdNeoHookeanSummary summary;
     system_->set_targets(targets);
     system_->load(x, x_);
@@ -40,14 +44,14 @@ XpbdNeoHookeanSummary XpbdNeoHookean<Scalar>::minimise(const Positions& targets,
     while (summary.iterations < options_.iterations) {
         begin_step(Scalar(momentum()), x_.size(), x_.data(), before_.data(), predicted_.data(), applied_.data());
         const int last = std::min(options_.iterations, summary.iterations + options_.iterations_per_step);
-        if (!keeps) system_->forget();
+        if (!keeps_multipliers) system_->forget();
         for (; summary.iterations < last; ++summary.iterations) {
             if (options_.multipliers == XpbdMultipliers::reset) system_->forget();
-            system_->iterate(x_, keeps);
+            system_->iterate(x_, keeps_multipliers);
         }
         const double work = end_step(x_.size(), x_.data(), before_.data(), predicted_.data(), applied_.data());
-        if (!keeps) applied_ = Rows<Scalar>(x_.size());
-        if (work < 0.0) {
+        if (!keeps_multipliers) applied_ = Rows<Scalar>(x_.size());
+        if (work < 0.0) {  // The forces point against the motion: the momentum restarts.
             nesterov_ = 1.0;
             ++summary.restarts;
         }
@@ -57,7 +61,7 @@ XpbdNeoHookeanSummary XpbdNeoHookean<Scalar>::minimise(const Positions& targets,
     return summary;
 }
 
-// t_{k+1} = (1 + sqrt(1 + 4 t_k^2)) / 2 and b = (t_k - 1) / t_{k+1}.
+// Nesterov's b = (t_k - 1) / t_{k+1} with t_{k+1} = (1 + sqrt(1 + 4 t_k^2)) / 2. The call advances k.
 template <typename Scalar>
 double XpbdNeoHookean<Scalar>::momentum()
 {
@@ -71,38 +75,51 @@ template class XpbdNeoHookean<double>;
 
 namespace {
 
-// A visit corrects forces at the shape before it, and so treats the curvature of its two constraints explicitly: with
+// The gradients g_i of the barycentric coordinates of a tet's vertices, as columns [1/m].
+Eigen::Matrix<double, 3, 4> shape_gradients(const NeoHookeanTet& tet)
+{
+    return vertex_gradients(tet, Eigen::Matrix3d::Identity());
+}
+
+// mu V |g_i|^2: what a tet adds to the stiffness of its vertices.
+Eigen::Vector4d vertex_stiffness(const NeoHookeanTet& tet, const FleshMaterial& material)
+{
+    return material.mu * tet.volume * shape_gradients(tet).colwise().squaredNorm().transpose();
+}
+
+// The factor by which the stiffness of each vertex has to be larger in its mass, so that a visit is stable; 1 for most
+// vertices, #V. stiffness: D_i, #V.
+//
+// A visit corrects forces at the shape before it, and so treats the curvature of its two constraints explicitly. With
 // the displacement a that the tet has applied, a_{n+1} = -kappa (y_n + a_n) and x_{n+1} = y_n + a_{n+1} along an
-// eigenvector of W times the curvature, of eigenvalue kappa. These shrink for kappa < (2 + 2 b) / (3 + 4 b), which is
-// 4/7 for the momentum b = 1. At rest the multipliers are -mu V and mu V, and the curvature is at most 2 mu V |dF|^2,
-// so that kappa <= 2 rho with rho = mu V times the largest eigenvalue of sum_i w_i g_i g_i^T. The visits of tets that
-// share their vertices with many others damp each other. A tet that has more than 9/16 of the stiffness of its vertices
-// on average is taken for alone: one tet has all of it, and no tet of this project's bodies more than 0.35. Its
-// vertices get the masses of a stiffness that is larger by the returned factor, 1 elsewhere, #V, so that kappa is at
-// most 0.51 at the default time step of 0.8. stiffness: D_i, #V.
+// eigenvector of W times the curvature with the eigenvalue kappa. These shrink for kappa < (2 + 2 b) / (3 + 4 b), which
+// is 4/7 for the momentum b = 1. At rest the multipliers are -mu V and mu V, and the curvature is at most
+// 2 mu V |dF|^2, so that kappa <= 2 rho with rho = mu V times the largest eigenvalue of sum_i w_i g_i g_i^T.
+//
+// The visits of tets that share their vertices with many others damp each other. A tet that has more than 9/16 of the
+// stiffness of its vertices on average is therefore treated as if it were alone. A single tet has all of the stiffness,
+// and no tet of this project's bodies has more than 0.35. With the factor, kappa is at most 0.51 at the default time
+// step of 0.8.
 Eigen::VectorXd curvature_in_excess(const std::vector<NeoHookeanTet>& tets, const FleshMaterial& material,
                                     const Eigen::VectorXd& stiffness)
 {
-    constexpr double alone = 4.0 * 9.0 / 16.0, stable = 0.4;  // rho at a time step of 1
-    Eigen::VectorXd excess = Eigen::VectorXd::Ones(stiffness.size()),
-                    of_flesh = Eigen::VectorXd::Zero(stiffness.size());
-    const auto of_tet = [&](const NeoHookeanTet& tet) -> Eigen::Vector4d {
-        return material.mu * tet.volume *
-               vertex_gradients(tet, Eigen::Matrix3d::Identity()).colwise().squaredNorm().transpose();
-    };
+    constexpr double share_of_lone_tet = 4.0 * 9.0 / 16.0;  // summed over the four vertices
+    constexpr double stable_rho = 0.4;                      // at a time step of 1
+    Eigen::VectorXd excess = Eigen::VectorXd::Ones(stiffness.size());
+    Eigen::VectorXd stiffness_of_tets = Eigen::VectorXd::Zero(stiffness.size());
     for (const NeoHookeanTet& tet : tets)
-        for (int i = 0; i < 4; ++i) of_flesh(tet.vertex[i]) += of_tet(tet)(i);
+        for (int i = 0; i < 4; ++i) stiffness_of_tets(tet.vertex[i]) += vertex_stiffness(tet, material)(i);
     for (const NeoHookeanTet& tet : tets) {
         double share = 0.0;
-        for (int i = 0; i < 4; ++i) share += of_tet(tet)(i) / of_flesh(tet.vertex[i]);
-        if (share <= alone) continue;
-        const Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
+        for (int i = 0; i < 4; ++i) share += vertex_stiffness(tet, material)(i) / stiffness_of_tets(tet.vertex[i]);
+        if (share <= share_of_lone_tet) continue;
+        const Eigen::Matrix<double, 3, 4> g = shape_gradients(tet);
         Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
         for (int i = 0; i < 4; ++i)
             if (stiffness(tet.vertex[i]) > 0.0) S += g.col(i) * g.col(i).transpose() / stiffness(tet.vertex[i]);
         const double rho =
             material.mu * tet.volume * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(S).eigenvalues()(2);
-        for (const int vertex : tet.vertex) excess(vertex) = std::max(excess(vertex), rho / stable);
+        for (const int vertex : tet.vertex) excess(vertex) = std::max(excess(vertex), rho / stable_rho);
     }
     return excess;
 }
@@ -110,8 +127,12 @@ Eigen::VectorXd curvature_in_excess(const std::vector<NeoHookeanTet>& tets, cons
 }  // namespace
 
 XpbdFlesh::XpbdFlesh(const TetMesh& mesh, const FleshEnergy& energy, const BoneHold& bones,
-                     const FleshMaterial& of_flesh, double time_step)
-    : material(of_flesh), tets(neo_hookean_tets(mesh)), hold(bones), first_mode(tets.size() + 1, 0), w(energy.hold())
+                     const FleshMaterial& flesh_material, double time_step)
+    : material(flesh_material),
+      tets(neo_hookean_tets(mesh)),
+      hold(bones),
+      first_mode(tets.size() + 1, 0),
+      w(energy.hold())
 {
     if (!(time_step > 0.0))
         throw InputError("flesh", 0, "time_step", std::to_string(time_step), "expected a value above 0");
@@ -127,6 +148,7 @@ XpbdFlesh::XpbdFlesh(const TetMesh& mesh, const FleshEnergy& energy, const BoneH
 
 namespace {
 
+// All springs and then all tets.
 std::vector<XpbdVisit> in_file_order(const XpbdFlesh& flesh)
 {
     std::vector<XpbdVisit> visits;
@@ -142,8 +164,9 @@ double inner(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b)
     return a.cwiseProduct(b).sum();
 }
 
-// Sixteen tets that share no vertex side by side, in the order of memory of the solvers of Algorithm 1. In each slab of
-// the mesh, first the springs and then the tets are visited. Threads share the slabs; their number changes no bit.
+// The packed implementation: sixteen tets that share no vertex are visited side by side, in the order of memory of the
+// solvers of Algorithm 1. In each slab of the mesh, the springs are visited first and the tets afterwards. Threads
+// share the slabs, and the number of threads changes no bit of the result.
 template <typename Scalar>
 class PackedXpbd : public XpbdSystem<Scalar> {
 public:
@@ -241,9 +264,9 @@ private:
         return sum;
     }
 
-    // The mean of the targets d serves for bodies near the origin. A target is a point times the sum of its v, which
-    // may be anything from -2 to 2: far from the origin, the flesh is where d = (sum of v) o on the whole, by least
-    // squares.
+    // Places the origin of the rows near the flesh. The mean of the targets d serves for bodies near the world's
+    // origin. A target is a point times the sum of its v, which may be anything from -2 to 2. Far from the world's
+    // origin, the rows therefore have the origin o that fits d = (sum of v) o for all targets by least squares.
     void set_origin(const Positions& targets)
     {
         constexpr double nearby = 16.0;  // sizes of the body: at most 4 of the 24 bits of a float
@@ -279,7 +302,7 @@ private:
     static void fill_tet(NeoHookeanBatch<Scalar>& batch, int lane, int t, const XpbdFlesh& flesh)
     {
         const NeoHookeanTet& tet = flesh.tets[t];
-        const Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
+        const Eigen::Matrix<double, 3, 4> g = shape_gradients(tet);
         Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
         for (int i = 0; i < 4; ++i) S += flesh.w(tet.vertex[i]) * g.col(i) * g.col(i).transpose();
         for (int k = 0; k < 9; ++k) batch.rest_inverse[k][lane] = Scalar(tet.rest_inverse(k / 3, k % 3));
@@ -308,7 +331,7 @@ PlainXpbd::PlainXpbd(const XpbdFlesh& flesh, const std::vector<XpbdVisit>& visit
     : XpbdSystem(flesh.w), flesh_(flesh), visits_(visits)
 {
     for (const NeoHookeanTet& tet : flesh.tets) {
-        Eigen::Matrix<double, 3, 4> g = vertex_gradients(tet, Eigen::Matrix3d::Identity());
+        const Eigen::Matrix<double, 3, 4> g = shape_gradients(tet);
         Eigen::Vector4d w;
         for (int i = 0; i < 4; ++i) w(i) = flesh.w(tet.vertex[i]);
         weighted_.push_back(g * w.asDiagonal() * g.transpose());
@@ -332,7 +355,7 @@ void PlainXpbd::iterate(Rows<double>& x, bool with_residual)
     }
 }
 
-// C = v^T x - d; k C + lambda = 0 with the stiffness k, for x, y and z.
+// Solves k C + lambda = 0 for each mode of the hold and each of x, y and z, where C = v^T x - d and k is the stiffness.
 void PlainXpbd::visit_hold(int t, Rows<double>& x)
 {
     const auto& vertex = flesh_.tets[t].vertex;
@@ -358,17 +381,22 @@ void PlainXpbd::visit_tet(int t, Rows<double>& x, bool with_residual)
     State& state = state_[t];
     const auto p = [&](int i) { return Vec3(Vec3::Map(x[tet.vertex[i]])); };
     const Eigen::Matrix3d F = deformation_gradient(tet, p(0), p(1), p(2), p(3));
-    const Eigen::Matrix3d H = hydrostatic_gradient(F), D = deviatoric_gradient(F), HS = H * weighted_[t],
-                          DS = D * weighted_[t];
-    const double k_H = flesh_.material.lambda * tet.volume, k_D = flesh_.material.mu * tet.volume;
+    const Eigen::Matrix3d H = hydrostatic_gradient(F);
+    const Eigen::Matrix3d D = deviatoric_gradient(F);
+    const Eigen::Matrix3d HS = H * weighted_[t];
+    const Eigen::Matrix3d DS = D * weighted_[t];
+    const double k_H = flesh_.material.lambda * tet.volume;
+    const double k_D = flesh_.material.mu * tet.volume;
 
     Eigen::Matrix3d residual = Eigen::Matrix3d::Zero();
     if (with_residual) residual = state.applied - state.multipliers(0) * H - state.multipliers(1) * D;
     const double right_H =
         -k_H * hydrostatic_value(F, flesh_.material.alpha) - state.multipliers(0) + k_H * inner(HS, residual);
     const double right_D = -k_D * deviatoric_value(F) - state.multipliers(1) + k_D * inner(DS, residual);
-    const double HH = k_H * inner(HS, H) + 1.0, HD = k_H * inner(HS, D), DH = k_D * inner(HS, D),
-                 DD = k_D * inner(DS, D) + 1.0;
+    const double HH = k_H * inner(HS, H) + 1.0;
+    const double HD = k_H * inner(HS, D);
+    const double DH = k_D * inner(HS, D);
+    const double DD = k_D * inner(DS, D) + 1.0;
     const double determinant = HH * DD - HD * DH;  // 1 or more, by Cauchy and Schwarz
     const Eigen::Vector2d change((right_H * DD - HD * right_D) / determinant,
                                  (HH * right_D - DH * right_H) / determinant);
