@@ -1,9 +1,15 @@
-// Registers of all kernels: as many numbers side by side as a register of this machine holds, vectors and matrices of
-// them, and vertices going in and out of registers. For the kernels' translation units alone, which are compiled for
-// one machine: nothing of this may reach another. A vertex is x, y, z, w in memory, one load of four numbers;
-// Vertices<Scalar> is one vertex in every lane. Loads of four and a transpose are some three times quicker than gather
-// and scatter instructions. Four<Scalar> is one point or one column of a matrix, where the vertices of a row differ too
-// much to stand side by side (skinning).
+// The registers of all kernels: as many numbers side by side (lanes) as a register of this machine holds, vectors and
+// matrices in every lane, and the way of vertices from memory into registers and back.
+//   Vertices<Scalar> p = gather(x, offset);                      // one vertex in every lane
+//   const Lanes<Scalar> distance = length(p - gather(x, other_offset));
+//   scatter(p, x, offset);
+// Only the kernels' translation units include this file. They are compiled for one machine, and nothing of it may reach
+// code that runs on another one.
+//
+// In memory a vertex is the four numbers x, y, z, w [m, m, m, inverse mass], which are loaded at once. Loads of four
+// numbers and a transpose are about three times quicker than gather and scatter instructions. Four<Scalar> is one point
+// or one column of a matrix. Skinning uses it, where neighbouring vertices have too little in common to stand side by
+// side.
 #pragma once
 
 #include "pbs/geometry/rotation_formula.hpp"
@@ -23,7 +29,7 @@ namespace pbs {
 // A register of numbers.
 template <typename Scalar>
 using Lanes = std::experimental::native_simd<Scalar>;
-// How many: 4 to 16 in float, 2 to 8 in double on x86-64.
+// The number of lanes of a register: 4 to 16 in float and 2 to 8 in double on x86-64.
 template <typename Scalar>
 inline constexpr int lanes = static_cast<int>(Lanes<Scalar>::size());
 
@@ -33,7 +39,7 @@ struct Vertices {
     Lanes<Scalar> x, y, z, w;  // w: inverse mass
 };
 
-// `from` is aligned to a whole register.
+// Loads a register from memory that is aligned to a whole register.
 template <typename Scalar>
 [[gnu::always_inline]] inline Lanes<Scalar> load(const Scalar* from)
 {
@@ -56,7 +62,8 @@ using Vector [[gnu::vector_size(count * sizeof(Scalar)), gnu::may_alias]] = Scal
 template <typename Scalar>
 using Row = Vector<Scalar, lanes<Scalar>>;
 
-// The element of (a, b), with b's counted after a's, that becomes element i, within blocks of four.
+// Patterns of a shuffle of two vectors a and b of the same width within blocks of four. at(i) is the element that
+// becomes element i of the result; the elements of b are counted after those of a.
 template <int width>
 struct UnpackLow {
     static constexpr int at(int i) { return i / 4 * 4 + i % 4 / 2 + i % 2 * width; }
@@ -74,7 +81,7 @@ struct HighHalves {
     static constexpr int at(int i) { return LowHalves<width>::at(i) + 2; }
 };
 
-// (a, b) by the pattern: element i is Pattern::at(i).
+// The elements of (a, b) that the pattern chooses: element i is that with the number Pattern::at(i).
 template <template <int> typename Pattern, typename V, std::size_t... i>
 [[gnu::always_inline]] inline V shuffled(V a, V b, std::index_sequence<i...>)
 {
@@ -87,7 +94,7 @@ template <template <int> typename Pattern, typename Scalar>
     return shuffled<Pattern>(a, b, std::make_index_sequence<lanes<Scalar>>());
 }
 
-// Columns of rows, in each block of four: its own inverse.
+// Exchanges rows and columns of each block of four. Doing it twice changes nothing.
 template <typename Scalar>
 [[gnu::always_inline]] inline void transpose(Row<Scalar> (&rows)[4])
 {
@@ -101,7 +108,7 @@ template <typename Scalar>
     rows[3] = shuffled<HighHalves, Scalar>(zw_01, zw_23);
 }
 
-// vertex(0), vertex(4), vertex(8) ..., each four numbers, side by side.
+// Places vertex(0), vertex(4), vertex(8) ... side by side, four numbers each.
 template <typename Scalar, typename Vertex>
 [[gnu::always_inline]] inline Row<Scalar> side_by_side(const Vertex& vertex)
 {
@@ -127,7 +134,7 @@ template <typename Scalar, typename Vertex>
 #endif
 }
 
-// Row k of a transpose: the vertices of lanes k, k + 4, k + 8 ...
+// One row of a transpose. With offset + k it has the vertices of the lanes k, k + 4, k + 8 ...
 template <typename Scalar>
 [[gnu::always_inline]] inline Row<Scalar> row(const Scalar* vertices, const std::uint32_t* offset)
 {
@@ -135,7 +142,7 @@ template <typename Scalar>
         [&](int lane) { return *reinterpret_cast<const Vector<Scalar, 4>*>(vertices + offset[lane]); });
 }
 
-// Numbers 4 which .. 4 which + 3.
+// The numbers 4 which to 4 which + 3 of a row.
 template <int which, typename Scalar>
 [[gnu::always_inline]] inline Vector<Scalar, 4> block(Row<Scalar> row)
 {
@@ -149,7 +156,7 @@ template <int which, typename Scalar>
     return __builtin_shufflevector(row, row, i, i + 1, i + 2, i + 3);
 }
 
-// A row's blocks to the vertices that row() took them from.
+// Stores the blocks of a row at the vertices from which row() took them.
 template <typename Scalar, std::size_t... blocks>
 [[gnu::always_inline]] inline void store_row(const Row<Scalar>& row, Scalar* vertices, const std::uint32_t* offset,
                                              std::index_sequence<blocks...>)
@@ -159,7 +166,7 @@ template <typename Scalar, std::size_t... blocks>
 
 }  // namespace simd_detail
 
-// One vertex a lane from `vertices` + offset[lane], offsets in numbers.
+// Loads one vertex per lane from `vertices` + offset[lane]. Offsets count numbers: 4 * vertex.
 template <typename Scalar>
 [[gnu::always_inline]] inline Vertices<Scalar> gather(const Scalar* vertices, const std::uint32_t* offset)
 {
@@ -178,14 +185,17 @@ template <typename Scalar>
     }
 }
 
-// Back to where gather takes them from, w with them. No two offsets are equal.
+// Stores vertices with their w where gather takes them from. No two offsets are equal.
 template <typename Scalar>
 [[gnu::always_inline]] inline void scatter(const Vertices<Scalar>& from, Scalar* vertices, const std::uint32_t* offset)
 {
     if constexpr (lanes<Scalar> < 4) {
         for (int lane = 0; lane < lanes<Scalar>; ++lane) {
             Scalar* to = vertices + offset[lane];
-            to[0] = from.x[lane], to[1] = from.y[lane], to[2] = from.z[lane], to[3] = from.w[lane];
+            to[0] = from.x[lane];
+            to[1] = from.y[lane];
+            to[2] = from.z[lane];
+            to[3] = from.w[lane];
         }
     } else {
         using namespace simd_detail;
@@ -233,7 +243,7 @@ template <typename Scalar>
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// to += factor * g for Vertices, whose w stays, or a LaneVector.
+// to += factor * g. `to` is a LaneVector, or Vertices whose w does not change.
 template <typename Scalar, template <typename> typename To>
 [[gnu::always_inline]] inline void add(const Lanes<Scalar>& factor, const LaneVector<Scalar>& g, To<Scalar>& to)
 {
@@ -242,7 +252,7 @@ template <typename Scalar, template <typename> typename To>
     to.z += factor * g.z;
 }
 
-// Zero where the denominator is not above `least`.
+// numerator / denominator, or zero in lanes in which the denominator is not above `least`.
 template <typename Scalar>
 [[gnu::always_inline]] inline Lanes<Scalar> quotient(const Lanes<Scalar>& numerator, const Lanes<Scalar>& denominator,
                                                      const Lanes<Scalar>& least = Scalar(0))
@@ -260,8 +270,8 @@ template <typename Scalar>
     return total;
 }
 
-// The sum of of_part(batch, first lane) over the parts of `count` batches, in registers and every 32 parts on in
-// double.
+// The sum of of_part(batch, first lane) over the parts of `count` batches; a part is a register of a batch. It is
+// summed up in registers, and in double after every 32 parts.
 template <typename Scalar, typename OfPart>
 [[gnu::always_inline]] inline double sum_of_parts(int count, const OfPart& of_part)
 {
@@ -283,8 +293,7 @@ template <typename Scalar>
     return sqrt(dot(a, a));
 }
 
-// The functions that formulae without a branch need (rotation_formula.hpp and others), for a number in each lane of a
-// register.
+// The functions that formulae without a branch need (rotation_formula.hpp and others), on a number in each lane.
 template <class Scalar>
 struct NumberFunctions<std::experimental::native_simd<Scalar>> {
     using Number = std::experimental::native_simd<Scalar>;
@@ -337,7 +346,7 @@ template <typename Scalar>
     return result;
 }
 
-// A S with the symmetric S: 00 11 22 12 02 01.
+// A S with a symmetric S, whose entries are in the order 00, 11, 22, 12, 02, 01.
 template <typename Scalar>
 [[gnu::always_inline]] inline LaneMatrix<Scalar> times_symmetric(const LaneMatrix<Scalar>& A,
                                                                  const Lanes<Scalar> (&S)[6])
@@ -345,7 +354,7 @@ template <typename Scalar>
     return {{combined(A, S[0], S[5], S[4]), combined(A, S[5], S[1], S[3]), combined(A, S[4], S[3], S[2])}};
 }
 
-// Entry (i, j) of each matrix is in columns[3 j + i], from lane `first` on.
+// Loads a matrix per lane. Entry (i, j) is in columns[3 j + i], from the lane `first` of the batch on.
 template <typename Scalar>
 [[gnu::always_inline]] inline LaneMatrix<Scalar> load_matrix(const Scalar (&columns)[9][batch_size], int first)
 {
@@ -378,7 +387,7 @@ using UnalignedFour [[gnu::vector_size(4 * sizeof(Scalar)), gnu::aligned(alignof
 
 }  // namespace simd_detail
 
-// Numbers 0 to 3 from any address.
+// Loads four numbers from any address, which need not be aligned.
 template <typename Scalar>
 [[gnu::always_inline]] inline Four<Scalar> load_four(const Scalar* numbers)
 {
