@@ -1,21 +1,30 @@
-// The finite element reference in one pose, with a bound on its own error: linear and quadratic elements on the
-// character's own tets and on these tets cut into eight; quadratic ones on other tets in the same skin, which is finer
-// where joints are bent; and on the own tets along the whole way of the bones. All have the same bones and contact.
+// The finite element reference in one pose, with a bound on its own error.
 //   const PosedReference reference(character, spec, pose, time_step_s);
 //   if (reference.is_reached()) reference.error_of(positions).joint_pct <= reference.bound().joint_pct ...
+//
+// Several solutions, all with the same bones and contact, give the reference and the bound:
+//   nested             linear and quadratic elements on the character's own tets and on these tets cut into eight
+//   on other tets      quadratic elements on other tets in the same skin, which are finer where joints are bent
+//   along the bones    quadratic elements on the own tets, followed along the whole way of the bones from rest
+//
 // Where no joint is bent, or without other tets, the reference is the finest nested solution. Its bound is that of
 // analysis/statistics/grid_convergence.hpp plus the largest distance of a further mesh.
-// Where a joint is bent, flesh can crease. A crease takes its place by the elements' edges, differs from mesh to mesh,
-// and is resolved only by elements much smaller than the limb, so that nested solutions show no order. There the
-// reference is the solution of the lowest energy, which approximates the equilibrium best in energy. Its bound is 1.25
-// times the largest distance of a solution on other tets, of that on tets cut into eight, or of the two equilibria on
-// the own tets. Let e be the error of the reference, e' that of another solution, and c the cosine between the two. In
-// the root mean square norms their squared distance is |e|^2 + |e'|^2 - 2 c |e| |e'|, which is at least (1 - c^2) |e|^2
-// whatever |e'| is. The factor 1.25 therefore covers c up to 0.6, and every c where |e'| is at least 1.8 |e|. Meshes
-// whose creases lie in the same place have nearly the same error. This is why the largest distance is taken: one mesh
-// whose crease lies elsewhere is enough. The bound of linf_m has the same factor without this derivation. The tips of
-// the creases of all solutions are left out. The equilibrium of compressed flesh is not unique: of two equilibria on
-// the own tets the one with the lower energy counts.
+//
+// Where a joint is bent, flesh can crease. The place of a crease follows the edges of the elements, so that it differs
+// from mesh to mesh. A crease is resolved only by elements that are much smaller than the limb, so that nested
+// solutions show no order. There the reference is the solution with the lowest energy, which approximates the
+// equilibrium best in energy. Its bound is 1.25 times the largest of these distances from it: that of a solution on
+// other tets, that of the solution on tets cut into eight, and that between the two equilibria on the own tets.
+//
+// The factor has a derivation for root mean square norms. Let e be the error of the reference, e' that of another
+// solution, and c the cosine of the angle between the two. Their squared distance is |e|^2 + |e'|^2 - 2 c |e| |e'|,
+// which is at least (1 - c^2) |e|^2 for every |e'|. The factor 1.25 therefore covers c up to 0.6, and every c where
+// |e'| is at least 1.8 |e|. Meshes whose creases lie in the same place have nearly the same error. The largest distance
+// is taken for this reason: one mesh whose crease lies elsewhere is enough. The bound of linf_m has the same factor
+// without this derivation. Errors are measured outside the tips of the creases of all solutions.
+//
+// The equilibrium of compressed flesh is not unique. Of two equilibria on the own tets, the one with the lower energy
+// counts.
 #pragma once
 
 #include "analysis/metrics/error_norms.hpp"
@@ -45,8 +54,9 @@ DeformerSpec reference_flesh(const Scene& scene);
 
 // One of the solutions.
 struct NestedSolution {
-    int element_order = 1, refinements = 0;
-    unsigned other_tets = 0;        // their seed (pbs::Remeshing); 0: the character's own
+    int element_order = 1;
+    int refinements = 0;            // how often the tets are cut into eight: 0 or 1
+    unsigned other_tets = 0;        // seed of the other tets (pbs::Remeshing); 0: the character's own tets
     double edges_per_radius = 0.0;  // of the other tets at bent joints; 0: no joint is bent
     int vertices = 0, tets = 0;     // of its mesh
     double volume_m3 = 0.0;         // of its mesh, at rest
@@ -58,22 +68,26 @@ struct NestedSolution {
     double j_min = 1.0;                       // smallest volume ratio of such a tet
     int worst_tet = -1;                       // that tet
     int newton_steps = 0;                     // on the whole path to the pose
-    int projected =
-        0;  // those with a projected Hessian: it was not positive definite, or the last step met negative curvature
+    // The steps with a projected Hessian, because it was not positive definite or the last step met negative curvature.
+    int projected = 0;
     double seconds = 0.0;  // wall time, without that of the solution with fewer nodes
     // Positions of the character's vertices [m], #V x 3. If Newton's method did not finish, they are those of its last
     // state. If the solution with fewer nodes did not finish, they are the positions of that solution.
     pbs::Positions positions = {};
     std::vector<bool> at_tips = {};  // of creases, #V; empty if it did not finish
 };
-// The larger one in each norm; not a number where one of them is not.
+
+// The larger value of each norm. It is not a number if one of the two is not.
 analysis::ErrorNorms larger_of(const analysis::ErrorNorms& norms, const analysis::ErrorNorms& other);
 // "worst tet 812 of volume ratio -0.04, 3 inverted"
 std::string worst_tet_of(const NestedSolution& solution);
 
-// The solutions of a reference: both orders on the own tets, without a bound; those on the refined tets too; those on
-// other tets and along the bones too.
-enum class ReferenceEffort { own_tets, refined, other_tets };
+// Which solutions a reference has. Each value has those of the values before it, too.
+enum class ReferenceEffort {
+    own_tets,   // both element orders on the own tets, without a bound
+    refined,    // both element orders on the own tets cut into eight
+    other_tets  // quadratic elements on other tets and along the bones
+};
 NAMED_OPTIONS(ReferenceEffort, own_tets, refined, other_tets)
 
 // The folder in which all studies of a results folder keep solutions: DIR/reference_solutions of a run in
@@ -106,7 +120,7 @@ public:
     // Empty if the reference is reached; otherwise the worst tet of the finest solution's last state.
     std::string why_not_reached() const { return is_reached() ? "" : worst_tet_of(solutions_.front()); }
 
-    // The vertices that are left out: at the tips of creases, #V.
+    // The vertices at the tips of creases, which are left out of all distances, #V.
     const std::vector<bool>& masked() const { return masked_; }
     double masked_share_pct() const { return error_metrics_.share_pct(masked_); }
 
@@ -143,7 +157,7 @@ private:
     using Solutions = std::vector<NestedSolution>;
     Solutions solved(const std::vector<Level>& levels) const;
     void add(const std::string& name, const std::vector<Level>& levels);  // solves, or finds what is kept
-    Solutions kept(const std::string& file) const;                        // empty: none, or damaged
+    Solutions kept(const std::string& file) const;                        // empty if the file is missing or damaged
     void keep(const std::string& file, const Solutions& solutions) const;
     std::string file_of(const std::string& name, const std::vector<Level>& levels) const;
     void solve_on_other_tets();
@@ -160,9 +174,9 @@ private:
     std::string label_, kept_in_;
     analysis::ErrorMetrics error_metrics_;
     std::vector<NestedSolution> solutions_;
-    std::size_t nested_ = 0;  // the first ones, on the own and the refined tets
-    bool creases_ = false;    // a joint is bent, and other tets show how well its crease is resolved
-    std::optional<std::size_t> which_;
+    std::size_t nested_ = 0;            // number of solutions on the own and the refined tets, which are the first ones
+    bool creases_ = false;              // a joint is bent, and other tets show how well its crease is resolved
+    std::optional<std::size_t> which_;  // the solution that is the reference
     std::vector<bool> masked_;
     std::optional<analysis::NestedOrder> order_;
     analysis::ErrorNorms spread_;
