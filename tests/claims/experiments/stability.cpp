@@ -67,6 +67,25 @@ TEST(StabilityVerdict, ATrialIsCountedByTheSizeOfItsTimeStep)
     }
 }
 
+// Of two trials, the first at rest. A bounded one is at rest if it no longer moves by 1e-5 diagonals per step.
+TEST(StabilityVerdict, ATrialThatMovesOrIsUnsolvedOrRunsAwayIsNotAtRest)
+{
+    const auto share_with = [](const MeasuredCell& second) {
+        const auto values = values_from({cell_of("twist", StabilityOutcome::converged), second});
+        return test_support::values_of(values, "share_of_cells_at_rest_in_small_steps", {.factor = "twist"})
+            .at(0)
+            .value;
+    };
+    const MeasuredCell still = cell_of("twist", StabilityOutcome::bounded);
+    MeasuredCell moving = still, unsolved = still;
+    moving.result.steps.back().motion = 1e-4;
+    unsolved.result.steps.back().solved = false;
+    EXPECT_EQ(share_with(still), 1.0);
+    EXPECT_EQ(share_with(moving), 0.5);
+    EXPECT_EQ(share_with(unsolved), 0.5);
+    for (const StabilityOutcome outcome : ran_away_outcomes) EXPECT_EQ(share_with(cell_of("twist", outcome)), 0.5);
+}
+
 std::string blind_spots_of(const std::vector<MeasuredCell>& cells)
 {
     std::vector<CellRow> rows;
