@@ -76,11 +76,11 @@ void ChildProcess::ask_to_end() const
     if (process_ > 0) kill(process_, SIGINT);
 }
 
-int ChildProcess::wait(rusage* usage)
+int ChildProcess::wait()
 {
     int status = 0;
     const pid_t child = std::exchange(process_, -1);
-    while (wait4(child, &status, 0, usage) < 0 && errno == EINTR) {
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     return status;
 }

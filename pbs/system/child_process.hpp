@@ -2,7 +2,6 @@
 #pragma once
 
 #include <signal.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -36,9 +35,7 @@ public:
     void ask_to_end() const;                    // by SIGINT; does not wait
     bool writes() const { return pipe_ >= 0; }  // false once no process can write any more
     const std::string& text() const { return text_; }
-    // Waits for the end of the child; returns its status as of waitpid. usage: what the child took of the processor;
-    // may be null.
-    int wait(rusage* usage = nullptr);
+    int wait();  // for the end of the child; returns its status as of waitpid
 
 private:
     friend void listen_to(const std::vector<ChildProcess*>& children, int longest_ms);
