@@ -52,7 +52,6 @@ std::vector<ClaimValue> claim_values(const std::vector<std::string>& claims,
             analysis::Selection own = claim.own;
             own.quantities = {quantity};
             own.of.order = own.of.precision = own.of.variant = "";
-            own.of.iterations.reset();
             if (own.of.deformer.starts_with("pbs")) own.of.deformer = "pbs";
             for (analysis::JudgedCase judged : analysis::judged(claim, own, measured).cases) {
                 judged.of.k_stretch.reset();
