@@ -8,6 +8,7 @@
 #include "pbs/geometry/input_error.hpp"
 #include "pbs/solver/options.hpp"
 #include "tests/support/rounding_error.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/step_rounding.hpp"
 
 #include <gtest/gtest.h>
@@ -201,6 +202,21 @@ TEST_F(JoltResponseOfLimb, HeldFleshSwingsAndCalmsDown)
     EXPECT_LT(held.peak_over_jolt, 1.0);
     EXPECT_LT(held.left_over_peak, 0.5);
     EXPECT_LT(held.speed_growth, 1.0);
+}
+
+// Flesh that LBS carries along answers a jolt by rounding alone. A fit would find a swing in it.
+TEST(JoltRecords, HaveNoSwingWhereTheFleshIsCarriedAlong)
+{
+    const test_support::ScratchFolder folder;
+    const experiments::JoltCase carried_along{
+        .scene = "limb_bend",
+        .overrides = {"pbs.variant.lbs_entry=increment", "pbs.jiggle.k_stretch=0.9", "pbs.order=plain",
+                      "pbs.precision=f64", "pbs.gravity_m_s2=[0,0,0]"},
+        .settings = {{}},
+        .jolt = {.direction = pbs::Vec3::UnitX()}};
+    record_jolts(carried_along, folder.path().string());
+    for (const analysis::Measurement& measured : analysis::measurements(folder / "measurements.csv"))
+        EXPECT_FALSE(measured.of.deformer == "pbs" && measured.quantity == "damping_ratio") << text_of(measured.of);
 }
 
 // LBS has no inertia: it stands in its place at once. A point at the radius r goes along an arc in chords of 2 r
