@@ -110,13 +110,11 @@ struct Part {
 
     [[gnu::always_inline]] void gather_from(const Scalar* vertices, Vertices<Scalar> (&p)[corners(kind)]) const
     {
-#pragma GCC unroll 8
         for (int v = 0; v < corners(kind); ++v) p[v] = gather(vertices, batch->offset[v] + first);
     }
 
     [[gnu::always_inline]] void scatter_to(Scalar* vertices, const Vertices<Scalar> (&p)[corners(kind)]) const
     {
-#pragma GCC unroll 8
         for (int v = 0; v < corners(kind); ++v) scatter(p[v], vertices, batch->offset[v] + first);
     }
 

@@ -172,7 +172,7 @@ TEST_P(Sleep, WithoutToleranceNothingThatIsOffSleeps)
     EXPECT_EQ(asleep.positions, awake.positions);
 }
 
-INSTANTIATE_TEST_SUITE_P(Orders, Sleep, testing::Values(Order::ordered), [](const auto& order) { return "ordered"; });
+INSTANTIATE_TEST_SUITE_P(Orders, Sleep, testing::Values(Order::ordered), [](const auto&) { return "ordered"; });
 
 }  // namespace
 }  // namespace left_out_tests
