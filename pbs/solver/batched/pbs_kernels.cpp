@@ -105,20 +105,23 @@ template <typename Scalar>
 template <typename Scalar, ConstraintKind kind>
 struct Part {
     static constexpr int a_batch = batch_size / lanes<Scalar>;
+    static constexpr int vertices = corners(kind);  // a constant, without which the loops below are not unrolled
     const Batch<Scalar, kind>* batch;
     int first;  // lane of the batch
 
-    [[gnu::always_inline]] void gather_from(const Scalar* vertices, Vertices<Scalar> (&p)[corners(kind)]) const
+    [[gnu::always_inline]] void gather_from(const Scalar* xyzw, Vertices<Scalar> (&p)[vertices]) const
     {
-        for (int v = 0; v < corners(kind); ++v) p[v] = gather(vertices, batch->offset[v] + first);
+#pragma GCC unroll 8
+        for (int v = 0; v < vertices; ++v) p[v] = gather(xyzw, batch->offset[v] + first);
     }
 
-    [[gnu::always_inline]] void scatter_to(Scalar* vertices, const Vertices<Scalar> (&p)[corners(kind)]) const
+    [[gnu::always_inline]] void scatter_to(Scalar* xyzw, const Vertices<Scalar> (&p)[vertices]) const
     {
-        for (int v = 0; v < corners(kind); ++v) scatter(p[v], vertices, batch->offset[v] + first);
+#pragma GCC unroll 8
+        for (int v = 0; v < vertices; ++v) scatter(p[v], xyzw, batch->offset[v] + first);
     }
 
-    [[gnu::always_inline]] void project(Vertices<Scalar> (&p)[corners(kind)]) const
+    [[gnu::always_inline]] void project(Vertices<Scalar> (&p)[vertices]) const
     {
         const Lanes<Scalar> rest = load(batch->rest + first), k = load(batch->stiffness + first);
         if constexpr (kind == ConstraintKind::edge)
@@ -129,7 +132,7 @@ struct Part {
 
     // The same for XPBD. lambda: of the batch.
     [[gnu::always_inline]] void project_compliant(const Lanes<Scalar>& dt2, Scalar* lambda,
-                                                  Vertices<Scalar> (&p)[corners(kind)]) const
+                                                  Vertices<Scalar> (&p)[vertices]) const
     {
         const Lanes<Scalar> rest = load(batch->rest + first), k = dt2 * load(batch->stiffness + first);
         Lanes<Scalar> multiplier = load(static_cast<const Scalar*>(lambda + first));
