@@ -165,7 +165,7 @@ json difference_of(const Verdict& verdict)
             {"most", difference.most}};
 }
 
-// What the claim states and asks, as it was fixed beforehand.
+// The statement of the claim and its thresholds, which were fixed before any result was seen.
 json stated_facts(const Claim& claim)
 {
     return {{"id", claim.id},

@@ -242,7 +242,7 @@ int handles_of(const Triangles& triangles)
     return parts - euler / 2;
 }
 
-// What the verb `mesh` refuses: tets of another volume or another shape than the surface. A surface without volume has
+// The verb `mesh` refuses tets whose volume or shape differs from that of the surface. A surface without volume has
 // its own remark.
 void add_shape(const RiggedBody& body, const Character& character, const std::string& file, RemarkList& remarks)
 {
